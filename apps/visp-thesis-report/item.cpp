@@ -156,7 +156,8 @@ Item seedsMerged(std::vector<Item> seeds)
       }
       quantity.seeds.push_back(item.quantities[i].ours);
     }
-    quantity.ours = vpMedian(quantity.seeds);
+    quantity.ours =
+        quantity.never ? *std::max_element(quantity.seeds.begin(), quantity.seeds.end()) : vpMedian(quantity.seeds);
   }
   return merged;
 }

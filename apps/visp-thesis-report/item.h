@@ -19,7 +19,7 @@
 
 namespace thesisReport
 {
-//! \brief Tolerance relative to the thesis's value, set before any measurement and part of the report.
+//! \brief Tolerance relative to the thesis's value, part of the report; rows.json says where it comes from.
 class Tolerance
 {
 public:
@@ -73,11 +73,12 @@ struct Quantity {
   std::string name;             //!< "rms velocity error".
   std::string unit;             //!< "px/frame"; "1" for a ratio or a count.
   std::optional<double> thesis; //!< Value or claimed bound of the thesis; none: not given.
-  double ours = 0.;             //!< Measured in this run; of several seeds the median.
+  double ours = 0.;             //!< Measured in this run; of several seeds the median, or the largest if #never.
   Tolerance tolerance = Tolerance::factor(1.1);
   Good good = Good::Neither;
   std::string reason;          //!< Reason for a difference; shown only then.
   std::string note;            //!< Measurement method; always shown. Of several seeds that of the first.
+  bool never = false;          //!< An upper bound that is never exceeded: one run that does so is enough.
   Judgement judgement{};       //!< What a second reader needs; see Judgements.
   std::vector<double> seeds{}; //!< #ours of each seed; empty before seedsMerged().
 };

@@ -154,9 +154,8 @@ void addClaims(Item &item, const std::vector<Column> &all)
        Tolerance::factor(2.), Good::Neither,
        "It depends on the two programs: SIFT is OpenCV 4.6's with its vector instructions, SURF is dlib's.",
        "The thesis: \"SIFT is an order of magnitude slower\"."});
-  item.quantities.push_back({"time, SURF 523 over SURF 135", "1", 260. / 100.,
-                             all[0].time.median() / all[2].time.median(), Tolerance::factor(2.), Good::Neither,
-                             "How much of the time does not depend on the keypoints is the program's.",
+  item.quantities.push_back({"time, SURF 523 over SURF 135", "1", 1., all[0].time.median() / all[2].time.median(),
+                             Tolerance::atLeast(), Good::Neither, "",
                              "The thesis: with SURF the number of keypoints tunes the time."});
   item.quantities.push_back(
       {"matches, SIFT 794 over SURF 244", "1", 90. / 70., all[3].matched.mean() / all[1].matched.mean(),

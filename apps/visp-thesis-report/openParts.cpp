@@ -167,8 +167,8 @@ std::vector<Item> stability(const Setting &)
       {"largest rotation with a positive margin, object 44 deg aside", "deg", std::nullopt, lastStable(44.),
        Tolerance::factor(1.1), Good::Neither, "", ""}};
   item.remarks = {"While the margin is positive the rotation error decreases. The thesis claims it for every pose.",
-                  "Outside the region every start arrives that keeps the object in front of the camera: the region is "
-                  "that of a proof."};
+                  "Outside the region every start arrives that keeps the object in front of the camera, and " +
+                      std::to_string(ends.unseen) + " of " + std::to_string(STARTS) + " do not."};
   item.parameters = {{"law", "ff-sum, kappa = 1, any slopes of the saturation"}};
   vpApp::Plot plot;
   plot.title = "Region in which ff-sum is known to be stable";

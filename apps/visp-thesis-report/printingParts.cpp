@@ -211,9 +211,9 @@ double centreVelocity(const Replica &replica)
   return sum;
 }
 
-//! Rms true velocity error with the measured velocity itself, over that of the replica.
 constexpr double RUNS_AWAY = 100.; // times the error
 
+//! Rms true velocity error with the measured velocity itself, over that of the replica.
 double unfilteredOver(const Replica &replica, unsigned int seed)
 {
   vpPrintExperimentSpec spec = replica.runs.front().spec;
@@ -248,7 +248,7 @@ std::vector<Item> play(const Setting &setting)
       {"the motion without a filter runs away (1 yes, 0 no)", "1", 1., without > RUNS_AWAY ? 1. : 0.,
        Tolerance::distance(0.), Good::Neither,
        "The noise that the filter kept away makes the error larger, but not without bound.",
-       "The measured velocity itself instead of the filter's."});
+       "The measured velocity itself instead of the filter's. Running away: a hundred times the error."});
   feedforward.quantities.push_back({"rms true velocity error without a filter over that with it", "1", std::nullopt,
                                     without, Tolerance::factor(1.1), Good::Neither, "", ""});
   const std::pair<const char *, const printPattern::Replica *> parts[] = {{"with feedforward", &forward},

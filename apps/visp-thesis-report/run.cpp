@@ -33,7 +33,7 @@ namespace thesisReport
 // What ranks send, see sweep.h. Judgements are added on the first rank.
 template <class Archive> void exchange(Archive &archive, Quantity &q)
 {
-  archive(q.name, q.unit, q.thesis, q.ours, q.tolerance, q.good, q.reason, q.note);
+  archive(q.name, q.unit, q.thesis, q.ours, q.tolerance, q.good, q.reason, q.note, q.never);
 }
 template <class Archive> void exchange(Archive &archive, Figure &figure)
 {

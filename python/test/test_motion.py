@@ -319,7 +319,7 @@ def test_servo_with_one_reference_image(random):
         teacher.image()
     while not teacher.isComplete():
         assert teacher.add(rendered(photo, 0.16, 0.12, cdMo, random)), teacher.message()
-    assert 0 < teacher.averageNoise() < teacher.pointNoise() < 1
+    assert " " in teacher.message() and 0 < teacher.averageNoise() < teacher.pointNoise() < 1
     servo = vd.VisualServo("ff-lookat", spec=vd.VisualServoSpec(assumeExecuted=True))
     servo.setReference(teacher.image(), CAMERA, vd.ReferenceVisionSpec(pose=vd.ReferencePoseSpec(nearest=0.2, farthest=1.0)))
     for k, cMo in enumerate((cdMo, pose([0.01, 0, 0.32], [0.1, -0.2, 0.3]))):
