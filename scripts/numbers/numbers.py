@@ -6,7 +6,7 @@ A claim of claims.json:
   page       file of the repository
   text       words of the page with {names} in place of numbers; spaces stand for any white space
   command    of build/release/bin, OUT is a result folder
-  from       by name: "summary.json runs law=pbvs1,plant=D end_rotation_deg" (a path in a JSON file of OUT; name=value chooses in a
+  from       by name: "summary.json runs law=pbvs1,plant=D end_rotation_deg" (a path in a JSON file of OUT; name=value or a number chooses in a
              list), "re: ..." (first group of a regular expression on the output; "max: ..." and "sum: ..." take all that it finds), or
              "bench: NAME: COUNTER" (of Google Benchmark; cpu_time is in the unit of the benchmark), or the ratio of two,
              "ratio: NAME: COUNTER / NAME: COUNTER"
@@ -84,6 +84,8 @@ def rewrite(page, text, stale):
 
 
 def chosen(value, step):
+    if isinstance(value, list) and step.isdigit():
+        return value[int(step)]
     if isinstance(value, list):
         wanted = dict(pair.split("=") for pair in step.split(","))
         fitting = [v for v in value if all(str(v.get(key)) == w for key, w in wanted.items())]
