@@ -26,6 +26,7 @@ constexpr double longestLag = 0.1;  // s: delay that the clock catches up; beyon
 constexpr double resting = 1e-4;    // rad/s or m/s
 constexpr double longestRest = 1.;  // s
 constexpr double longestWait = 1e6; // s
+constexpr double longestStop = 10.; // s: stops within the limits of acceleration end much earlier
 
 vpJointVector jointsOf(const vpColVector &v, int n)
 {
@@ -214,7 +215,8 @@ vpRobot::vpRobotStateType vpSimulatedArm::setRobotState(const vpRobot::vpRobotSt
     m_impl->order();
     m_impl->core.stop();
     if (m_impl->stepped()) {
-      m_impl->waitUntil(lock, [this] { return m_impl->core.atRest(); });
+      const double until = m_impl->core.time() + longestStop;
+      m_impl->waitUntil(lock, [this, until] { return m_impl->core.atRest() || m_impl->core.time() > until; });
       m_impl->core.tick();
     }
   }

@@ -13,6 +13,9 @@ BEGIN_VISP_NAMESPACE
 
 namespace
 {
+// rad/s or m/s: a joint at a limit is led back by what rounding puts it beyond, again and again.
+constexpr double standing = 1e-9;
+
 // A control period is an integer number of joint control cycles.
 vpArmDriveSpec driveSpec(const vpSimulatedArmSpec &spec)
 {
@@ -79,7 +82,7 @@ void vpSimulatedArmCore::stop()
 
 bool vpSimulatedArmCore::atRest() const noexcept
 {
-  return m_motion.kind() == vpArmTaskKind::Hold && m_drives.command().cwiseAbs().maxCoeff() == 0.;
+  return m_motion.kind() == vpArmTaskKind::Hold && m_drives.command().cwiseAbs().maxCoeff() <= standing;
 }
 
 void vpSimulatedArmCore::tick() noexcept
