@@ -177,8 +177,13 @@ struct VISP_EXPORT vpVisualServoOutput {
  *   if (servo.output().status != vpVisualServoStatus::Servoing) {
  *     std::cerr << servo.output().message << std::endl; // why the robot brakes or stands
  *   }
+ *   if (servo.output().status >= vpVisualServoStatus::ClockFault) {
+ *     break; // stays so until start(): the robot must be stopped
+ *   }
  * }
  * servo.stop();
+ * isRunning = false;
+ * vision.join();
  * \endcode
  */
 class VISP_EXPORT vpVisualServo
