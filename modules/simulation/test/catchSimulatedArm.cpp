@@ -300,6 +300,36 @@ TEST_CASE("A stale velocity is braked, a fresh one goes on", "[arm]")
   CHECK(robot.getState().time == Approx(11 * 0.04 + 1.39));
 }
 
+TEST_CASE("A stop ends, also with joints at their limits", "[arm]")
+{
+  auto rng = vpTestSupport::generator(724);
+  CAPTURE(vpTestSupport::seed());
+  std::uniform_real_distribution<double> unit(-1., 1.);
+  std::uniform_int_distribution<int> cycles(20, 200);
+  for (const vpArmModel *model : {&amor(), &sixAxes()}) {
+    for (int problem = 0; problem < vpTestSupport::longer(20); ++problem) {
+      vpSimulatedArmSpec spec;
+      spec.drives.ideal = problem % 2 == 0;
+      vpSimulatedArm robot(*model, spec);
+      robot.setRobotState(vpRobot::STATE_VELOCITY_CONTROL);
+      const bool byTwist = problem % 4 < 2;
+      vpColVector v(byTwist ? 6 : static_cast<unsigned int>(model->size()));
+      for (unsigned int i = 0; i < v.size(); ++i) {
+        v[i] = (byTwist ? 0.3 : 1.5) * unit(rng);
+      }
+      for (int k = cycles(rng); k > 0; --k) {
+        robot.setVelocity(byTwist ? vpRobot::CAMERA_FRAME : vpRobot::JOINT_STATE, v);
+      }
+      const double before = robot.getState().time;
+      robot.setRobotState(vpRobot::STATE_STOP);
+      CAPTURE(problem, byTwist, spec.drives.ideal);
+      CHECK(robot.getState().time - before < 5.);
+      CHECK(robot.getState().status == vpSimulatedArmStatus::Stopped);
+      CHECK(robot.getState().command.cwiseAbs().maxCoeff() < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("A joint that does not follow stops the arm until it is stopped", "[arm]")
 {
   vpSimulatedArmSpec spec;

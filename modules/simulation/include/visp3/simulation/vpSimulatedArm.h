@@ -120,7 +120,7 @@ public:
 
   /*!
    * As on ViSP's robots: STATE_VELOCITY_CONTROL comes before setVelocity(). STATE_STOP brakes within the acceleration
-   * limits (stepped: until at rest, 10 s at most) and clears vpSimulatedArmStatus::NotFollowing.
+   * limits (stepped: until at rest, 10 s at most; see getState()) and clears vpSimulatedArmStatus::NotFollowing.
    * \throw vpRobotException (wrongStateError) for unsupported states (acceleration, force).
    */
   vpRobot::vpRobotStateType setRobotState(const vpRobot::vpRobotStateType newState) VP_OVERRIDE;
