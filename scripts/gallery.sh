@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the commands of doc/gallery/README.md, all or those of the sections whose titles hold WORDS: scripts/gallery.sh [WORDS].
-# They make its pictures anew, and 3D views, out/gallery/live/*.html, which the target `doc` then shows in place of pictures.
+# They make its pictures again, and 3D views in out/gallery/live, which the target `doc` then shows instead of three of the pictures.
 # Needs ffmpeg, ImageMagick, chromium and rsvg-convert.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -211,13 +211,14 @@ vpAvoidanceRunSpec specOf(const Options &options, const Script &script)
   return spec;
 }
 
-//! Largest speed of the true tool, from differences between the samples, m/s.
+//! Largest speed of the true tool, from differences between the samples, m/s; NaN if one of them is.
 double movedSpeed(const vpAvoidanceRun &run)
 {
   double largest = 0.;
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     const vpAvoidanceSample &before = run.samples[i - 1], &now = run.samples[i];
-    largest = std::max(largest, (now.tool - before.tool).norm() / (now.time - before.time));
+    const double speed = (now.tool - before.tool).norm() / (now.time - before.time);
+    largest = std::isnan(speed) || speed > largest ? speed : largest;
   }
   return largest;
 }

@@ -25,8 +25,9 @@ constexpr double NEAR = 0.005;                           // m: a via is reached
 
 Quantity speedKept(double peak)
 {
-  Quantity quantity{"largest speed",         "m/s",         MAX_SPEED, peak,
-                    Tolerance::atMost(KEPT), Good::Smaller, "",        "The thesis: not violated."};
+  Quantity quantity{
+      "largest speed",         "m/s",         MAX_SPEED, peak,
+      Tolerance::atMost(KEPT), Good::Smaller, "",        "The thesis: not violated. Of several seeds the largest."};
   quantity.never = true;
   return quantity;
 }

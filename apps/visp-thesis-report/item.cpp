@@ -156,8 +156,9 @@ Item seedsMerged(std::vector<Item> seeds)
       }
       quantity.seeds.push_back(item.quantities[i].ours);
     }
-    quantity.ours =
-        quantity.never ? *std::max_element(quantity.seeds.begin(), quantity.seeds.end()) : vpMedian(quantity.seeds);
+    const bool known =
+        std::none_of(quantity.seeds.begin(), quantity.seeds.end(), [](double x) { return std::isnan(x); });
+    quantity.ours = known ? vpQuantile(quantity.seeds, quantity.never ? 1. : 0.5) : std::nan("");
   }
   return merged;
 }

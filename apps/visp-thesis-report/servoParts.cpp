@@ -117,9 +117,7 @@ Item hardReference(const Runs &runs)
       {"peak reference, feedforward over the sum of PBVS and kyrki-decoupled", "1", 1.,
        runs.of(FEEDFORWARD, HARD, peakReference) /
            (runs.of(PBVS, HARD, peakReference) + runs.of(KYRKI, HARD, peakReference)),
-       Tolerance::factor(1.5), Good::Neither,
-       "Each of the two has the rotation to the goal: their sum has it twice, the reference of the feedforward once.",
-       ""},
+       Tolerance::factor(1.5), Good::Neither, "", ""},
       {"feedforward: reference minus goal at the end of pose 2", "deg", DIED_OUT,
        runs.of(FEEDFORWARD, HARD, referenceLeft), Tolerance::atLeast(), Good::Neither, "",
        "The thesis: by disturbances it does not completely die out, so more must be left than is negligible in "

@@ -245,6 +245,8 @@ def test_results_side_by_side(tmp_path):
     assert made.returncode == 0, made.stderr
     page = (first / "report.html").read_text()
     assert first.name in page and second.name in page
+    made = subprocess.run([sys.executable, "-m", "visp_direct.report", first, "--views"], capture_output=True, text=True)
+    assert made.returncode == 1 and made.stderr.endswith("its report has no 3D view\n") and not list(first.glob("view-*"))
     (tmp_path / "summary.json").write_text('{"program": "visp-arm", "command": "", "robot": "", "problems": []}')
     with pytest.raises(DataError, match="is a result of visp-arm"):
         read_results([first, tmp_path])

@@ -132,6 +132,15 @@ TEST_CASE("Seeds become a median, a spread and the share that agrees with its ve
   CHECK(row["least"] == 2.);
   CHECK(row["largest"] == 9.);
   CHECK(row["seeds"] == 3);
+  const auto bound = [&](double ours) {
+    Item one = item(ours);
+    one.quantities[0].never = true;
+    return one;
+  };
+  CHECK(seedsMerged({bound(2.1), bound(9.), bound(2.)}).quantities[0].ours == 9.);
+  for (const Item &unknown : {item(std::nan("")), bound(std::nan(""))}) {
+    CHECK(verdictOf(seedsMerged({unknown, bound(2.), bound(2.)}).quantities[0]) == Verdict::Differs);
+  }
   Item other = item(2.);
   other.quantities[0].name = "p";
   CHECK_THROWS_WITH(seedsMerged({item(2.), other}), "fig6.3: not every seed has the row q");

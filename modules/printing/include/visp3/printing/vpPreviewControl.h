@@ -43,7 +43,7 @@ struct VISP_EXPORT vpPreviewControlSpec {
  * for feedbackAt(), when it begins to act. Stateless: the same input gives the same output.
  *
  * \code
- * vpMotionObserver observer;  // is told what the camera sees and what is commanded
+ * vpMotionObserver observer;  // gets what the camera sees and what is commanded
  * vpPrintReference reference; // leads from cell to cell
  * const vpPreviewControl control;
  * const double frame = 10.;
