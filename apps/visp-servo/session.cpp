@@ -145,9 +145,11 @@ int statusOf(const Outcome &outcome)
   }
   const bool wasToArrive = outcome.hasStarted && !outcome.options->motion.dryRun && !outcome.options->stay;
   if (outcome.ending == Ending::Duration && wasToArrive) {
-    const std::string obstacle = outcome.recording->obstacleOf(outcome.recording->last());
+    const Recording &recording = *outcome.recording;
+    const std::string obstacle = recording.obstacleOf(recording.last());
     throw std::runtime_error("the goal was not reached in " + vpApp::number(outcome.options->duration, 6) + " s" +
-                             (obstacle.empty() ? "" : ", in the way: " + obstacle) + "; the report shows the way");
+                             (obstacle.empty() ? "" : ", in the way: " + obstacle) +
+                             "; the report shows the way (at the end: " + recording.sentenceOf(recording.last()) + ")");
   }
   return vpApp::ExitOk;
 }
