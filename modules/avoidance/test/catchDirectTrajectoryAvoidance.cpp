@@ -148,7 +148,6 @@ TEST_CASE("The planned tool keeps its bounds and is C2 over every change of plan
 
 TEST_CASE("Without a detour the tool stops in time, and goes on when the way is free", "[dtg]")
 {
-  const Vector3d start = toolAt(amor().home());
   vpCollisionScene scene(amor());
   vpDirectTrajectoryAvoidance method(scene);
   vpJointVector q = amor().home();

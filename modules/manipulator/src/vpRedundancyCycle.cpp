@@ -152,7 +152,7 @@ template <int N> double vpRedundancyCycle<N>::shareWithin(const Joints &a, const
 template <int N> double vpRedundancyCycle<N>::saturate(Joints &y)
 {
   constexpr int rounds = 4;
-  constexpr double least = 1e-6; // squared length of the part of a joint's own direction that is free
+  constexpr double smallest = 1e-6; // squared length of the part of a joint's own direction that is free
   m_saturated = 0;
   bool within = true;
   for (int i = 0; i < m_n; ++i) {
@@ -178,7 +178,7 @@ template <int N> double vpRedundancyCycle<N>::saturate(Joints &y)
     }
     const Joints v = worst < 0 ? Joints(Joints::Zero()) : m_basis.free(Joints::Unit(worst));
     const double length2 = v.squaredNorm();
-    if (!(length2 > least)) {
+    if (!(length2 > smallest)) {
       break; // no joint, or the task needs it
     }
     const double limit = std::copysign(m_bounds.velocityLimit(worst) / m_scale(worst), a(worst) + b(worst));

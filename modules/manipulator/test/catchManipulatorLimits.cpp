@@ -233,7 +233,8 @@ TEST_CASE("Solver: limits, task, self-motion and status hold in every random ste
       able.col(i) *= (out.stoppedJoints >> i & 1U) != 0U ? 0. : problem % 3 == 0 ? 1. / std::sqrt(spec.weights(i)) : 1.;
       hurry = std::max(hurry, std::fabs(out.velocity(i) - in.previous(i)) / (model.acceleration()(i) * spec.period));
     }
-    const bool many = able.rows() > 0 && able.rows() <= n - std::bitset<32>(out.stoppedJoints).count();
+    const bool many =
+        able.rows() > 0 && able.rows() <= n - static_cast<int>(std::bitset<32>(out.stoppedJoints).count());
     if (many && hurry < 1. - 1e-6 && able.jacobiSvd().singularValues().minCoeff() > 1.01 * spec.singularRegion) {
       CAPTURE(share, out.scale);
       REQUIRE((done - share * wish).norm() <= 1e-6 * wish.norm() + 1e-9);

@@ -76,7 +76,7 @@ struct Samples {
 TEST_CASE("samples of a frame are bilinear inside it and marked outside, by every version", "[grey_lanes]")
 {
   constexpr int cols = 61, rows = 47;
-  for (unsigned int problem = 0; problem < vpTestSupport::longer(60U); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(60); ++problem) {
     auto rng = vpTestSupport::generator(problem);
     std::vector<unsigned char> frame(cols * rows);
     for (unsigned char &p : frame) {
@@ -141,7 +141,7 @@ TEST_CASE("a position that is not a number is outside the frame, by every versio
 
 TEST_CASE("sums over samples agree with sums in double precision, by every version", "[grey_lanes]")
 {
-  for (unsigned int problem = 0; problem < vpTestSupport::longer(40U); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(40); ++problem) {
     auto rng = vpTestSupport::generator(problem);
     const Samples s(rng);
     const int stride = vpGreyPadded(s.cols);
@@ -197,7 +197,7 @@ TEST_CASE("residuals, sums and normal equations of blocks agree with double prec
           "[grey_lanes]")
 {
   constexpr int step = 64, rows = 24;
-  for (unsigned int problem = 0; problem < vpTestSupport::longer(40U); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(40); ++problem) {
     auto rng = vpTestSupport::generator(problem);
     Floats grey = numbers(rng, step * rows, 0., 255.), du = numbers(rng, step * rows, -40., 40.),
            dv = numbers(rng, step * rows, -40., 40.), dBlur = numbers(rng, step * rows, -9., 9.),
@@ -287,7 +287,7 @@ TEST_CASE("residuals, sums and normal equations of blocks agree with double prec
 
 TEST_CASE("the median by counting is that of the sorted values", "[grey_lanes]")
 {
-  for (unsigned int problem = 0; problem < vpTestSupport::longer(50U); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(50); ++problem) {
     auto rng = vpTestSupport::generator(problem);
     vpGreyMedian median(16);
     median.clear();
@@ -309,7 +309,7 @@ TEST_CASE("the median by counting is that of the sorted values", "[grey_lanes]")
 TEST_CASE("textures are bilinear between texels and repeated beyond, by every version", "[grey_lanes]")
 {
   constexpr int cols = 40, rows = 30;
-  for (unsigned int problem = 0; problem < vpTestSupport::longer(60U); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(60); ++problem) {
     auto rng = vpTestSupport::generator(problem);
     std::vector<std::uint16_t> texels(cols * rows);
     for (std::uint16_t &t : texels) {

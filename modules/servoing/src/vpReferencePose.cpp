@@ -184,9 +184,14 @@ private:
   }
   template <class... Numbers> void say(const char *format, Numbers... numbers)
   {
-    char text[240];
-    std::snprintf(text, sizeof(text), format, numbers...);
-    m_result.message = text;
+    if constexpr (sizeof...(numbers) == 0) {
+      m_result.message = format;
+    }
+    else {
+      char text[240];
+      std::snprintf(text, sizeof(text), format, numbers...);
+      m_result.message = text;
+    }
   }
 
   void conclude();
