@@ -138,7 +138,8 @@ void bindTrigger(py::module_ &m)
           "Cells that can no longer be hit; each once.")
       .def_property_readonly(
           "planned", [](const Output &self) { return records(self.planned.data(), countOf(self.plannedCount)); },
-          "Future shots within the horizon, unordered; they may still change.");
+          "Future shots within the horizon, unordered; they may still change.")
+      .def("message", &Output::message, doc("vpPrintTriggerOutput::message"));
   bindClass<Trigger>(m)
       .def(py::init<const vpPrintTriggerSpec &>(), py::arg("spec") = vpPrintTriggerSpec(),
            doc("vpPrintTrigger::vpPrintTrigger"))

@@ -76,6 +76,7 @@ def test_trigger_fires_once_at_each_cell(random):
             )
             output = trigger.step(given)
             assert output.status == vd.PrintTriggerStatus.Good and not output.overflow
+            assert output.message().split(":")[0] == ("Missed" if len(output.missed) else "Good")
             for shot in output.shots:
                 assert now <= shot["fireTime"] < now + 1 and shot["column"] not in fired
                 fired[shot["column"]] = shot["landTime"]

@@ -83,6 +83,22 @@ bool vpPrintTrigger::find(int row, int column, unsigned int epoch, double &along
   return false;
 }
 
+const char *vpPrintTriggerOutput::message() const noexcept
+{
+  if (status == vpPrintTriggerStatus::InputRefused) {
+    return "InputRefused: a time or the forecast of the motion is implausible; nothing was fired.";
+  }
+  if (overflow) {
+    return "Overflow: there was no capacity left for a cell, which may get no drop.";
+  }
+  if (missedCount > 0) {
+    return "Missed: cells can no longer be hit, see missed.";
+  }
+  return status == vpPrintTriggerStatus::FrameRefused
+             ? "FrameRefused: the time or the displacement of the capture is implausible; the cells were not used."
+             : "Good: everything was used.";
+}
+
 vpPrintTriggerStatus vpPrintTrigger::judge(const vpPrintTriggerInput &input) const noexcept
 {
   if (!vpIsPlausible(input.time) || !input.along.isPlausible() || !input.across.isPlausible() ||

@@ -345,6 +345,7 @@ TEST_CASE("Late cells are fired if they can still be hit and reported if not", "
     const auto &out = trigger.step(exact(1., 10. - 1.28 + jump, 4., nullptr));
     CHECK(out.shotCount == (jump < 2. ? 1 : 0));
     CHECK(out.missedCount == (jump < 2. ? 0 : 1));
+    CHECK_THAT(out.message(), Catch::StartsWith(jump < 2. ? "Good: " : "Missed: "));
     if (jump < 2.) {
       CHECK(out.shots[0].late);
       CHECK(out.shots[0].offset == Approx(-jump).margin(1e-9));

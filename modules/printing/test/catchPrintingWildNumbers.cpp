@@ -284,6 +284,7 @@ void printTrigger(std::mt19937_64 &rng)
     const bool plausible = std::fabs(input.time) <= 1e12 && input.along.isPlausible() &&
                            std::fabs(input.time - input.along.time) <= vpMotionForecast::longest;
     REQUIRE((out.status == vpPrintTriggerStatus::InputRefused) == !plausible);
+    REQUIRE((std::string(out.message()).rfind("InputRefused: ", 0) == 0) == !plausible);
     if (out.status != vpPrintTriggerStatus::Good) {
       REQUIRE(trigger.remembered() == remembered);
     }

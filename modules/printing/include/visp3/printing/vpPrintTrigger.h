@@ -107,6 +107,9 @@ struct VISP_EXPORT vpPrintTriggerOutput {
   std::array<vpPrintShot, capacity> shots{};                //!< Shots to fire.
   std::array<vpPrintShot, capacity> missed{};               //!< Missed cells.
   std::array<vpPrintShot, capacity> planned{};              //!< Planned shots, unordered.
+
+  //! Status, missed cells and overflow as a readable sentence, the most severe first.
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 /*!
@@ -154,7 +157,7 @@ struct VISP_EXPORT vpPrintTriggerOutput {
  *     send(out.shots[i].fireTime); // frame
  *   }
  *   if (out.status != vpPrintTriggerStatus::Good || out.missedCount > 0) {
- *     std::cerr << out.missedCount << " cells missed" << std::endl;
+ *     std::cerr << out.message() << std::endl;
  *   }
  * }
  * \endcode
