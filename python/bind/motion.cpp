@@ -105,7 +105,9 @@ void bindPlanners(py::module_ &m)
           py::arg("joint"), py::arg("t"), doc("vpTimedPath::at"))
       .def("message", &vpTimedPath::message, py::arg("scene"), doc("vpTimedPath::message"));
   bindEnum<vpGoalConfigurationStatus>(m);
-  bindStruct<vpGoalConfiguration>(m).def("isFree", &vpGoalConfiguration::isFree, doc("vpGoalConfiguration::isFree"));
+  bindStruct<vpGoalConfiguration>(m)
+      .def("isFree", &vpGoalConfiguration::isFree, doc("vpGoalConfiguration::isFree"))
+      .def("message", &vpGoalConfiguration::message, doc("vpGoalConfiguration::message"));
   m.def("findGoalConfiguration", &vpFindGoalConfiguration, py::arg("scene"), py::arg("start"), py::arg("position"),
         py::arg("margin") = 0., py::arg("attempts") = 20, py::arg("seed") = 1U, Unlocked(),
         doc("vpFindGoalConfiguration"));

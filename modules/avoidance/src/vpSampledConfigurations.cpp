@@ -58,6 +58,19 @@ std::optional<vpJointVector> reach(vpClosedLoopKinematics &kinematics, const vpA
 }
 } // namespace
 
+const char *vpGoalConfiguration::message() const noexcept
+{
+  switch (status) {
+  case vpGoalConfigurationStatus::Free:
+    return "Free: a configuration that keeps the margin was found.";
+  case vpGoalConfigurationStatus::InCollision:
+    return "InCollision: no configuration was found at the goal that keeps the margin.";
+  case vpGoalConfigurationStatus::Unreachable:
+    return "Unreachable: no configuration was found that brings the end effector to the goal.";
+  }
+  return "";
+}
+
 vpGoalConfiguration vpFindGoalConfiguration(const vpCollisionScene &scene, const vpJointVector &from,
                                             const Eigen::Vector3d &position, double margin, int attempts,
                                             unsigned int seed)

@@ -411,6 +411,9 @@ TEST_CASE("A goal configuration is free, or its status says that none is, or tha
     ++counts[static_cast<int>(goal.status)];
     CAPTURE(problem, place.transpose(), static_cast<int>(goal.status));
     CHECK(goal.isFree() == (goal.status == vpGoalConfigurationStatus::Free));
+    CHECK_THAT(goal.message(), Catch::StartsWith(goal.isFree()       ? "Free: "
+                                                 : goal.q.size() > 0 ? "InCollision: "
+                                                                     : "Unreachable: "));
     CHECK((problem % 3 != 0 || !goal.isFree()));
     if (goal.status == vpGoalConfigurationStatus::Unreachable) {
       CHECK(goal.q.size() == 0);

@@ -27,6 +27,8 @@ struct VISP_EXPORT vpGoalConfiguration {
 
   //! True when q may be moved to.
   [[nodiscard]] bool isFree() const noexcept { return status == vpGoalConfigurationStatus::Free; }
+  //! Status as a readable sentence.
+  [[nodiscard]] const char *message() const noexcept;
 };
 
 /*!
@@ -42,7 +44,7 @@ struct VISP_EXPORT vpGoalConfiguration {
  *   std::cout << found.q.transpose() << " rad" << std::endl;
  * }
  * else {
- *   std::cerr << (found.status == vpGoalConfigurationStatus::InCollision ? "not free" : "out of reach") << std::endl;
+ *   std::cerr << found.message() << std::endl;
  * }
  * \endcode
  * \param scene : Arm and obstacles.
