@@ -64,7 +64,23 @@ vpArmModel loadUrdf(const RobotOptions &options)
   urdf.holdOthers = options.holdOthers;
   urdf.limits = options.jointLimits;
   urdf.homeState = options.homeState;
-  return vpLoadArmUrdf(options.robot, urdf);
+  try {
+    return vpLoadArmUrdf(options.robot, urdf);
+  }
+  catch (const vpException &error) { // of a field: of its option
+    std::string sentence = error.getStringMessage();
+    for (const auto &[field, option] :
+         {std::pair("base", "robot-base"), {"tip", "robot-tip"}, {"camera", "camera-link"}, {"tool", "tool-link"}}) {
+      for (const char *verb : {" is ", " must be "}) {
+        const std::string begin = options.robot + ": " + field + verb;
+        if (sentence.rfind(begin, 0) == 0) {
+          throw vpException(vpException::badValue,
+                            options.robot + ": --" + option + verb + sentence.substr(begin.size()));
+        }
+      }
+    }
+    throw;
+  }
 }
 
 vpArmModel loadFile(const RobotOptions &options)

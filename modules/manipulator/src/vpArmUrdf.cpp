@@ -38,6 +38,8 @@ public:
   {
     m_arm.source = file;
     m_arm.name = m_tree.model->getName();
+    m_tree.requireLink("camera", m_spec.camera);
+    m_tree.requireLink("tool", m_spec.tool);
     vpCompleteEnds(m_tree, m_srdf, m_spec, m_warnings);
     m_chain = m_tree.path(m_spec.base, m_spec.tip);
     home();

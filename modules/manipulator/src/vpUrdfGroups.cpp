@@ -91,15 +91,6 @@ Ends endsOf(const vpUrdfTree &tree, const vpSrdfGroup &group)
   return endsOf(tree, joints);
 }
 
-std::string listed(const std::vector<std::string> &names)
-{
-  std::string text;
-  for (const std::string &name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
 std::string groupOf(const vpUrdfTree &tree, const vpSrdf &srdf, const std::string &name, Ends &ends)
 {
   std::string best;
@@ -131,7 +122,7 @@ std::string onlyLeaf(const vpUrdfTree &tree)
     }
   }
   if (leaves.size() != 1) {
-    vpUrdfFail(tree.file, "the end effector is not unique, name one of the links " + listed(leaves) + " as the tip");
+    vpUrdfFail(tree.file, "tip must be one of the links " + vpListed(leaves) + ": the end effector is not unique");
   }
   return leaves.front();
 }
@@ -151,6 +142,8 @@ std::map<std::string, double> stateOf(const vpSrdf &srdf, const std::string &nam
 
 void vpCompleteEnds(const vpUrdfTree &tree, const vpSrdf &srdf, vpArmUrdfSpec &spec, vpWarningList &warnings)
 {
+  tree.requireLink("base", spec.base);
+  tree.requireLink("tip", spec.tip);
   if (spec.base.empty() && spec.tip.empty()) {
     Ends ends;
     const std::string group = groupOf(tree, srdf, spec.group, ends);
@@ -191,8 +184,8 @@ std::map<std::string, double> vpHomeState(const vpUrdfTree &tree, const vpSrdf &
   name = spec.homeState;
   if (!name.empty()) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      vpUrdfFail(tree.file,
-                 "home state " + name + " is not in the SRDF" + (names.empty() ? "" : ", which has " + listed(names)));
+      vpUrdfFail(tree.file, "home state " + name + " is not in the SRDF" +
+                                (names.empty() ? "" : ", which has " + vpListed(names)));
     }
     if (!missing(name).empty()) {
       vpUrdfFail(tree.file, "home state " + name + " of the SRDF does not give joint " + missing(name));

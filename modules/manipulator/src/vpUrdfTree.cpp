@@ -97,6 +97,16 @@ bool isBounded(const urdf::Joint &joint)
 
 void vpUrdfFail(const std::string &file, const std::string &sentence) { throw vpFileError(file + ": " + sentence); }
 
+std::string vpListed(const std::vector<std::string> &names)
+{
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < most; ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  return names.size() > most ? text + ", ..." : text;
+}
+
 vpRigidTransform vpUrdfPose(const urdf::Pose &from)
 {
   vpRigidTransform T;
@@ -125,6 +135,22 @@ vpUrdfTree vpUrdfTree::read(const std::string &file, vpWarningList &warnings)
     throw;
   }
   return tree;
+}
+
+void vpUrdfTree::requireLink(const char *field, const std::string &name) const
+{
+  std::vector<std::string> names;
+  for (const auto &item : model->links_) {
+    if (item.first == name && name != joinedRoot) {
+      return;
+    }
+    if (item.first != joinedRoot) {
+      names.push_back(item.first);
+    }
+  }
+  if (!name.empty()) {
+    vpUrdfFail(file, std::string(field) + " is " + name + ", must be one of the links " + vpListed(names));
+  }
 }
 
 urdf::LinkConstSharedPtr vpUrdfTree::link(const std::string &name) const

@@ -23,6 +23,8 @@ BEGIN_VISP_NAMESPACE
 
 //! Throws a vpFileError: the file and a sentence.
 [[noreturn]] void vpUrdfFail(const std::string &file, const std::string &sentence);
+//! "a, b, c"; of many names the first 20.
+std::string vpListed(const std::vector<std::string> &names);
 //! A pose of urdfdom.
 vpRigidTransform vpUrdfPose(const urdf::Pose &from);
 
@@ -40,6 +42,9 @@ struct vpUrdfTree {
    * \throw vpFileError if it cannot be read, is malformed, written in xacro, or no tree.
    */
   static vpUrdfTree read(const std::string &file, vpWarningList &warnings);
+  //! \param field : Name of the field of vpArmUrdfSpec with the value \e name; empty: nothing is required.
+  //! \throw vpFileError naming the field and the links if there is none of this name.
+  void requireLink(const char *field, const std::string &name) const;
   //! A link by its name. \throw vpFileError if there is none.
   [[nodiscard]] urdf::LinkConstSharedPtr link(const std::string &name) const;
   //! The joint above a link, also if that is the base; null: none, or one that was added to join the roots.

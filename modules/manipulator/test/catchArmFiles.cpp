@@ -193,8 +193,9 @@ TEST_CASE("Errors in URDF name the file and the element", "[files]")
   says(urdfError("<axis xyz=\"0 -1 0\"/>", "<axis xyz=\"0 0 0\"/>"), "axis of joint elbow is zero");
   says(urdfError("name=\"elbow\" type=\"revolute\"", "name=\"elbow\" type=\"floating\""),
        "joint elbow is floating or planar");
-  says(urdfError("tool_mount", "tool_mount", ""), "the end effector is not unique, name one of the links camera, tool");
-  says(urdfError("tool_mount", "tool_mount", "hand"), "there is no link hand");
+  says(urdfError("tool_mount", "tool_mount", ""),
+       "tip must be one of the links camera, tool: the end effector is not unique");
+  says(urdfError("tool_mount", "tool_mount", "hand"), "tip is hand, must be one of the links ");
   says(urdfError("lower=\"-1.9\"", "lower=\"2.9\""), "limits of joint shoulder are 2.9 and 2.2");
   CHECK_THROWS_WITH(vpLoadArmUrdf("nowhere.urdf"), Catch::Contains("nowhere.urdf: cannot be read"));
   vpArmUrdfSpec spec;

@@ -139,8 +139,10 @@ TEST_CASE("A robot without a name and one with several roots are read", "[urdf]"
   spec.base = "roots";
   CHECK(errorOf(urdf, spec).find("link arm is not below link roots") != std::string::npos);
   spec.base = "roots_"; // the link that was added is not there for others
-  CHECK(errorOf(urdf, spec).find("there is no link roots_") != std::string::npos);
-  CHECK(errorOf(urdf).find("the end effector is not unique, name one of the links arm, ground") != std::string::npos);
+  CHECK(errorOf(urdf, spec).find("base is roots_, must be one of the links arm, base, ground, roots") !=
+        std::string::npos);
+  CHECK(errorOf(urdf).find("tip must be one of the links arm, ground: the end effector is not unique") !=
+        std::string::npos);
 }
 
 TEST_CASE("xacro is refused with the command that expands it", "[urdf]")

@@ -100,7 +100,7 @@ struct VISP_EXPORT vpArmUrdfSpec {
  * \throw vpException (ioError) if a file cannot be read, (badValue) if it is malformed or written in xacro, a link,
  * joint, group or state is missing, the tip is not unique or not below the base, the camera or the tool is not fixed to
  * a link of the chain, a joint of the chain is floating or planar, or vpArmModel rejects a value; one sentence with the
- * file and the element.
+ * file and the element, or the field of \e spec.
  */
 [[nodiscard]] VISP_EXPORT vpArmModel vpLoadArmUrdf(const std::string &file, const vpArmUrdfSpec &spec = {});
 
