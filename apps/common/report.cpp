@@ -10,8 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <system_error>
 
@@ -54,8 +57,8 @@ std::string packageFolders()
   return folders + variable("PYTHONPATH");
 }
 
-//! Runs Python with its output in \e said. \return Its exit status; -1 if it could not be run.
-int runPython(const std::string &folder, std::string &said)
+//! Runs Python with its output in \e said, whose last line is the reason of a failure. \return True: exit status 0.
+bool runPython(const std::string &folder, std::string &said)
 {
   std::string program = interpreter(), option = "-m", module = "visp_direct.report", out = folder;
   std::array<char *, 5> arguments = {program.data(), option.data(), module.data(), out.data(), nullptr};
@@ -73,7 +76,8 @@ int runPython(const std::string &folder, std::string &said)
 
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    return -1;
+    said = std::strerror(errno);
+    return false;
   }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -84,16 +88,23 @@ int runPython(const std::string &folder, std::string &said)
   const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), pointers.data());
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
+  if (error != 0) {
+    close(ends[0]);
+    said = error == ENOENT ? program + " was not found" : program + ": " + std::strerror(error);
+    return false;
+  }
   std::array<char, 4096> part{};
-  for (ssize_t size = 0; error == 0 && (size = read(ends[0], part.data(), part.size())) > 0;) {
-    said.append(part.data(), static_cast<std::size_t>(size));
+  for (ssize_t size = 0; (size = read(ends[0], part.data(), part.size())) > 0 || (size < 0 && errno == EINTR);) {
+    said.append(part.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
   }
   close(ends[0]);
   int status = 0;
-  if (error != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) {
-    return -1;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) {
+    said += "\n" + program + " was ended by signal " + std::to_string(WTERMSIG(status));
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 //! The last line, which has the reason.
@@ -104,7 +115,7 @@ std::string reasonIn(std::string said, const std::string &folder, const std::str
   for (std::size_t at = 0; (at = reason.find(folder, at)) != std::string::npos; at += place.size()) {
     reason.replace(at, folder.size(), place);
   }
-  return reason.empty() ? interpreter() + " was not found" : vpEscapeUnprintable(reason, "");
+  return reason.empty() ? interpreter() + " wrote no report" : vpEscapeUnprintable(reason, "");
 }
 } // namespace
 
@@ -114,7 +125,7 @@ std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &su
   const fs::path report = out.file("report.html");
   const std::string folder = report.parent_path().string();
   std::string said;
-  const bool made = runPython(folder, said) == 0 && fs::exists(report);
+  const bool made = runPython(folder, said) && fs::exists(report);
   if (!isKeptAfterCtrlC) {
     throwIfInterrupted();
   }

@@ -15,4 +15,5 @@ except ImportError as error:
     _missing = error
 
     def __getattr__(name):  # reports need no compiled part
-        raise ImportError(f"visp_direct.{name} needs the compiled part of visp_direct: {_missing}")
+        raise ImportError(f"visp_direct.{name} needs the compiled part of visp_direct: {_missing}"
+                          "; cmake --build --preset release --target visp_direct_package builds it")

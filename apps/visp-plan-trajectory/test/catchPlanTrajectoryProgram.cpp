@@ -78,6 +78,24 @@ TEST_CASE("A bad line does not stop the others", "[visp-plan-trajectory]")
   CHECK(summary.at("files") == json({"motions.json", "summary.json"}));
 }
 
+TEST_CASE("Why there is no report", "[visp-plan-trajectory]")
+{
+  ProgramRun run(PLAN_TRAJECTORY);
+  run.write("p.jsonl", GOOD + "\n");
+  run.write("killed", "#!/bin/sh\nkill -9 $$\n");
+  std::filesystem::permissions(run.path("killed"), std::filesystem::perms::owner_all);
+  run.write("locked", "");
+  const std::string killed = run.path("killed").string(), locked = run.path("locked").string();
+  for (const auto &[python, reason] : {std::pair(killed, killed + " was ended by signal 9"),
+                                       {locked, locked + ": Permission denied"},
+                                       {"true", "true wrote no report"},
+                                       {"none", "none was not found"}}) {
+    CHECK(run("p.jsonl --out r", "VISP_DIRECT_PYTHON='" + python + "'") == OK);
+    CHECK_THAT(run.err(), Catch::Contains(", which needs Python: " + reason + "; make it later by: "));
+    std::filesystem::remove_all(run.path("r"));
+  }
+}
+
 TEST_CASE("Standard input, one file each for one problem", "[visp-plan-trajectory]")
 {
   ProgramRun run(PLAN_TRAJECTORY);
