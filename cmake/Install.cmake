@@ -1,5 +1,5 @@
 # What is installed: libraries, headers, programs, data, the CMake package and the file for pkg-config; cmake --install takes all
-# components, Packages.cmake makes a Debian package of each.
+# components, Packages.cmake makes a Debian package of each. Programs and the CMake package need the data.
 include(CMakePackageConfigHelpers)
 set(libraries ${VISP_DIRECT_BUILT_MODULES})
 list(TRANSFORM libraries PREPEND visp_)
@@ -23,8 +23,8 @@ endforeach()
 if(missing)
   list(LENGTH missing count)
   list(GET missing 0 first)
-  message(FATAL_ERROR \"visp-direct is not installed, it is not built yet (missing: \${first}, in all \${count} libraries and \"
-    \"programs); first: cmake --build \\\"${CMAKE_BINARY_DIR}\\\" --target vispdirect_installable\")
+  message(FATAL_ERROR \"visp-direct is not installed: of its libraries and programs \${count} are not built, \${first} is the first; \"
+    \"first: cmake --build \\\"${CMAKE_BINARY_DIR}\\\" --target vispdirect_installable\")
 endif()")
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VispDirect)
@@ -39,7 +39,7 @@ if(programs)
   install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endif()
 set(VISP_DIRECT_DATA_FOLDER ${CMAKE_INSTALL_DATAROOTDIR}/visp-direct)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION ${VISP_DIRECT_DATA_FOLDER} COMPONENT programs)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION ${VISP_DIRECT_DATA_FOLDER} COMPONENT data)
 # The reports are a part of the programs; the compiled part of the Python package is a component of its own.
 if(VISP_DIRECT_PYTHON_FOLDER)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/python/visp_direct" DESTINATION "${VISP_DIRECT_PYTHON_FOLDER}" COMPONENT programs

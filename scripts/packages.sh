@@ -28,13 +28,16 @@ run package-lintian.log "Checking by lintian" lintian --fail-on error "$build"/p
 
 work=$(mktemp -d)
 remove() {
-  as_root dpkg --purge visp-direct-doc visp-direct libvisp-direct-dev "$(cd "$build/packages" && ls | sed -n 's/^\(libvisp-direct[0-9.]*\)_.*/\1/p')" \
+  as_root dpkg --purge visp-direct-doc visp-direct libvisp-direct-dev visp-direct-data "$(cd "$build/packages" && ls | sed -n 's/^\(libvisp-direct[0-9.]*\)_.*/\1/p')" \
     >/dev/null 2>&1 || true
   rm -rf "$work"
 }
 trap remove EXIT
-run package-install.log "Installing the packages" as_root apt-get install -y --no-install-recommends "$build"/packages/*.deb
+apt_install() { as_root apt-get install -y --no-install-recommends "$@"; }
+cd "$build/packages"
+run package-install-dev.log "Installing what a project needs" apt_install ./libvisp-direct*.deb ./visp-direct-data_*.deb
 run package-cmake.log "A project that uses CMake" bash -c "cmake -S '$root/test/install/consumer' -B '$work/cmake' && cmake --build '$work/cmake' && '$work/cmake/consumer'"
+run package-install.log "Installing all packages" apt_install ./*.deb
 run package-program.log "A program from its package" bash -c "cd '$work' && visp-servo-compare --law pbvs1 --plant A --out servo && test -s servo/report.html"
 run package-pkgconfig.log "The same project by pkg-config" bash -c \
   "c++ -std=c++17 '$root/test/install/consumer/main.cpp' -o '$work/main' \$(pkg-config --cflags --libs visp-direct) && '$work/main'"
