@@ -30,6 +30,29 @@ vpCameraParameters cameraOf(double focal, unsigned int width, unsigned int heigh
   return vpCameraParameters(focal, focal, 0.5 * (width - 1.), 0.5 * (height - 1.));
 }
 
+//! How a rendered camera sees: as that of the file, without distortion.
+Eye renderedEye(const CameraOptions &options)
+{
+  Eye eye;
+  eye.rate = options.rate;
+  eye.fMc = fixedCamera(options);
+  if (options.xml.empty()) {
+    eye.intrinsics = cameraOf(RENDERED_FOCAL, RENDERED_WIDTH, RENDERED_HEIGHT);
+    eye.width = RENDERED_WIDTH;
+    eye.height = RENDERED_HEIGHT;
+    return eye;
+  }
+  const vpCalibratedCamera calibrated = vpLoadCalibratedCamera(options.xml, options.name);
+  if (calibrated.width == 0 || calibrated.height == 0) {
+    throw std::runtime_error(options.xml + ": does not state the size of the images, which a rendered camera needs");
+  }
+  const vpCameraParameters &p = calibrated.parameters;
+  eye.intrinsics.initPersProjWithoutDistortion(p.get_px(), p.get_py(), p.get_u0(), p.get_v0());
+  eye.width = calibrated.width;
+  eye.height = calibrated.height;
+  return eye;
+}
+
 //! A target on the end effector before a fixed camera faces away from the arm.
 const vpRigidTransform FACING{Eigen::Vector3d(1., -1., -1.).asDiagonal(), Eigen::Vector3d::Zero()};
 
@@ -170,12 +193,7 @@ Camera openCamera(const Options &options, const Robot &robot)
   Eye &eye = camera.eye;
   const CameraOptions &wanted = options.camera;
   if (wanted.source == "sim") {
-    eye = {cameraOf(RENDERED_FOCAL, RENDERED_WIDTH, RENDERED_HEIGHT),
-           RENDERED_WIDTH,
-           RENDERED_HEIGHT,
-           wanted.rate,
-           false,
-           fixedCamera(wanted)};
+    eye = renderedEye(wanted);
     if (wanted.isFixed && wanted.fMc.empty()) {
       eye.fMc = robot.pose() * FACING * vpRigidTransform::fromHomogeneous(*wanted.pose).inverse();
     }

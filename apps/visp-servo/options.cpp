@@ -72,8 +72,8 @@ void addCamera(vpApp::CommandLine &line, CameraOptions &camera)
   line.number("--camera-rate", camera.rate, {0., 1000.}, "HZ",
               "Images per second (default: as the camera or the video has it; 25 where nothing is known)");
   line.text("--camera-xml", camera.xml, "FILE.xml",
-            "Intrinsics, as ViSP's calibration writes them (default: a field of view of 60 degrees is assumed, for dry "
-            "runs only)");
+            "Intrinsics, as ViSP's calibration writes them; a rendered camera has them without distortion (default: a "
+            "field of view of 60 degrees is assumed, for dry runs only)");
   line.text("--camera-name", camera.name, "NAME", "Name of the camera in that file (default: the only one that fits)");
   line.number("--latency", camera.latency, {0., 1.}, "S", "Rendered camera: time from capture to result");
   line.number("--noise", camera.noise, {0., 100.}, "GREY", "Rendered camera: standard deviation of grey values");
@@ -201,7 +201,7 @@ void addRun(vpApp::CommandLine &line, Options &options)
             "Process again what is recorded in FOLDER; other options replace the recorded ones");
   line.flag("--list", options.list, "Name the laws and the robots of ViSP, and end");
   line.whole("--seed", options.seed, {0, 4294967295.}, "N", "Seed of the rendered camera's noise");
-  line.text("--out", options.out, "DIR", "Folder for the result");
+  line.text("--out", options.out, "DIR", "Folder for the result; with --replay out/servo-replay");
 }
 
 void checkTarget(const vpApp::CommandLine &line, const TargetOptions &target)
@@ -273,9 +273,6 @@ void checkRobot(const vpApp::CommandLine &line, const Options &options)
   }
   if (line.isGiven("--margin") && motion.scene.empty()) {
     throw vpApp::UsageError("--margin is given without --scene");
-  }
-  if (options.camera.source == "sim" && !options.camera.xml.empty() && options.task != Task::Replay) {
-    throw vpApp::UsageError("--camera-xml is for a real camera, and --camera is sim");
   }
   if (options.camera.source == "sim" && !options.target.tagFamily.empty() && options.task != Task::Replay) {
     throw vpApp::UsageError("--tag needs a camera or recorded images, and --camera is sim, which shows a photograph");

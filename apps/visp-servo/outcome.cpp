@@ -129,6 +129,9 @@ std::vector<std::string> findings(const Outcome &outcome)
     if (row.status == vpVisualServoStatus::Obstructed) {
       lines.push_back(recording.sentenceOf(row));
     }
+    for (const std::string &hindrance : outcome.hindrances) {
+      lines.push_back("At the end: " + hindrance + ".");
+    }
   }
   if (outcome.options->motion.dryRun) {
     lines.emplace_back("Dry run: nothing was commanded to a robot.");

@@ -37,6 +37,8 @@ struct Outcome {
   std::size_t lostImages = 0, lostRows = 0, unrecorded = 0;
   std::vector<std::string> laws;    //!< Used, in this order.
   std::vector<std::string> remarks; //!< Of camera and robot.
+  //! Where a goal was not reached: see hindrances(), from the last pose of the target.
+  std::vector<std::string> hindrances;
 };
 
 //! The main results, in sentences.

@@ -17,7 +17,9 @@
 #include "numberText.h"
 #include "outputFile.h"
 #include "pictureWindow.h"
+#include "reach.h"
 #include "report.h"
+#include "robot.h"
 #include "videoFile.h"
 
 #include <visp3/core/vpPoseVector.h>
@@ -135,6 +137,24 @@ void writeResult(const Outcome &outcome, const cv::Mat &picture, const std::stri
   std::cout << place << std::endl;
 }
 
+bool isLate(const Outcome &outcome)
+{
+  const Options &options = *outcome.options;
+  return outcome.ending == Ending::Duration && outcome.hasStarted && !options.motion.dryRun && !options.stay;
+}
+
+//! Hindrances of the arm that stands where \e row says. None where that or the goal is not known.
+std::vector<std::string> hindrancesAt(const CycleRow &row, const Robot &robot, const Outcome &outcome)
+{
+  if (robot.arm() == nullptr || !row.hasPose || !row.hasCamera || !outcome.options->target.reference.empty()) {
+    return {};
+  }
+  const bool isFixed = outcome.options->camera.isFixed;
+  const vpRigidTransform cdMo = vpRigidTransform::fromHomogeneous(outcome.cdMo);
+  return hindrances(*robot.arm(), Eigen::Map<const Eigen::VectorXd>(row.q.data(), row.joints),
+                    placeAtGoal(isFixed, outcome.eye.fMc, row.fMc, row.cMo, cdMo), isFixed);
+}
+
 int statusOf(const Outcome &outcome)
 {
   if (outcome.ending == Ending::Failed) {
@@ -143,8 +163,7 @@ int statusOf(const Outcome &outcome)
   if (outcome.ending == Ending::Interrupted) {
     return vpApp::ExitInterrupted;
   }
-  const bool wasToArrive = outcome.hasStarted && !outcome.options->motion.dryRun && !outcome.options->stay;
-  if (outcome.ending == Ending::Duration && wasToArrive) {
+  if (isLate(outcome)) {
     const Recording &recording = *outcome.recording;
     const std::string obstacle = recording.obstacleOf(recording.last());
     throw std::runtime_error("the goal was not reached in " + vpApp::number(outcome.options->duration, 6) + " s" +
@@ -200,6 +219,13 @@ int servo(const Options &given, const std::string &commandLine)
     cdMo = goalPose(options, eye);
     goal = servo.vision().goal(cdMo);
     servo.setGoal(goal);
+    if (options.camera.source == "sim" && robot->arm() != nullptr) { // where the target is, is known before it is seen
+      const bool isFixed = options.camera.isFixed;
+      const vpRigidTransform place =
+          placeAtGoal(isFixed, eye.fMc, robot->pose(), vpRigidTransform::fromHomogeneous(*options.camera.pose),
+                      vpRigidTransform::fromHomogeneous(cdMo));
+      vpApp::printWarnings("visp-servo", hindrances(*robot->arm(), robot->read().q, place, isFixed));
+    }
   }
   std::unique_ptr<vpApp::PictureWindow> window;
   View view(eye.intrinsics, eye.width, eye.height, options.law.motion);
@@ -241,6 +267,9 @@ int servo(const Options &given, const std::string &commandLine)
     outcome.realTime = run.realTime();
     outcome.laws = run.lawsUsed();
     outcome.remarks = camera.source->remarks();
+    if (isLate(outcome) && recording.cycleCount() > 0) {
+      outcome.hindrances = hindrancesAt(recording.last(), *robot, outcome);
+    }
     writeResult(outcome, filmRecording(recording, eye, options, goal.points, out), commandLine, out);
   }
   catch (const std::exception &error) {

@@ -29,6 +29,12 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
   run.write("text.png", "no picture");
   run.write("wrong.xml", "<root><camera></root>");
   run.write("other.xml", "<?xml version=\"1.0\"?>\n<root></root>\n");
+  run.write("two.urdf", "<robot name='two'><link name='a'/><link name='b'/><link name='c'/>"
+                        "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+                        "<joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint></robot>");
+  run.write("unsized.xml",
+            "<root><camera><name>Camera</name><model><type>perspectiveProjWithoutDistortion</type><px>500</px>"
+            "<py>500</py><u0>320</u0><v0>240</v0></model></camera></root>");
   run.write("noRotation.yaml",
             "rows: 4\ncols: 4\ndata:\n  - [1, 0, 0, 0]\n  - [0, 2, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n");
   run.write("busy/mine.txt", "do not touch");
@@ -58,7 +64,12 @@ TEST_CASE("wrong input is one sentence", "[visp-servo][errors]")
       {"--robot robbie --eMc x.yaml", USAGE, "--robot is robbie, which is no file and no robot of ViSP"},
       {"--robot robbie --camera 0", USAGE, "--robot is robbie, which is no file"},
       {"--robot franka", DATA, "the installed ViSP was built without vpRobotFranka"},
-      {"--camera-xml missing.xml", USAGE, "--camera-xml is for a real camera, and --camera is sim"},
+      {"--camera-xml missing.xml", DATA, "missing.xml"},
+      {"--camera-xml unsized.xml", DATA, "unsized.xml: does not state the size of the images"},
+      {"--robot two.urdf --robot-tip nobody", DATA,
+       "two.urdf: --robot-tip is nobody, must be one of the links a, b, c"},
+      {"--robot two.urdf", DATA, "two.urdf: --robot-tip must be one of the links b, c: the end effector is not unique"},
+      {"--robot two.urdf --robot-tip b --camera-link cam", DATA, "two.urdf: --camera-link is cam, must be one of"},
       {"--robot-plugin mine.so --camera frame.png", USAGE, "needs --camera-xml"},
       {"--robot-plugin missing.so --camera sim", DATA, "missing.so: no such file"},
       {"--robot-plugin '" ROBOT_NULL "' --camera sim", DATA, "gave no robot"},

@@ -7,6 +7,8 @@
 
 #include "goal.h"
 #include "liveRobot.h"
+#include "numberText.h"
+#include "reach.h"
 #include "recording.h"
 #include "recorded.h"
 #include "options.h"
@@ -416,4 +418,49 @@ TEST_CASE("joints that do not move the camera are named, and --eMc puts it into 
   const vpRigidTransform eMc = data.tool.inverse() * vpArmKinematics::camera(mounted, data);
   CHECK(distance(eMc, vpRigidTransform::fromHomogeneous(
                           vpHomogeneousMatrix(vpPoseVector(0.01, -0.02, 0.03, 0.1, 0.2, -0.3)))) < 1e-12);
+}
+
+TEST_CASE(
+    "what hinders an arm: limits by name, a goal beyond its reach, nothing where random joint positions are the goal",
+    "[visp-servo][robot]")
+{
+  const bool isFixed = GENERATE(false, true);
+  CAPTURE(isFixed);
+  Rng rng(vpTestSupport::seed());
+  Options options;
+  options.motion.robot.robot = "amor";
+  const vpArmModel arm = loadModel(options);
+  const auto random = [&] { // inside of the limits
+    vpJointVector q(arm.size());
+    for (int j = 0; j < arm.size(); ++j) {
+      const double margin = 0.05 * (arm.upper()(j) - arm.lower()(j));
+      q(j) =
+          arm.isContinuous(j) ? uniform(rng, -3., 3.) : uniform(rng, arm.lower()(j) + margin, arm.upper()(j) - margin);
+    }
+    return q;
+  };
+  const vpRigidTransform fMc = poseOf(rng, 2., 1.5);
+  vpArmData data;
+  const auto placeOf = [&](const vpJointVector &q) {
+    vpArmKinematics::update(arm, q, data);
+    return isFixed ? data.tool : vpArmKinematics::camera(arm, data);
+  };
+  for (int run = 0; run < 10; ++run) {
+    const vpJointVector from = random(), to = random();
+    const vpRigidTransform start = placeOf(from), end = placeOf(to), fMo = poseOf(rng, 2., 1.5),
+                           eMo = poseOf(rng, 0.2, 1.5);
+    const vpRigidTransform cMo = isFixed ? fMc.inverse() * start * eMo : start.inverse() * fMo;
+    const vpRigidTransform cdMo = isFixed ? fMc.inverse() * end * eMo : end.inverse() * fMo;
+    const vpRigidTransform place = placeAtGoal(isFixed, fMc, start, cMo, cdMo);
+    CHECK(distance(place, end) < 1e-9);
+    CHECK(hindrances(arm, from, place, isFixed).empty());
+    const vpRigidTransform beyond{place.R, Eigen::Vector3d(uniform(rng, 2., 9.), 0., 0.)};
+    const std::vector<std::string> told = hindrances(arm, from, beyond, isFixed);
+    REQUIRE(told.size() == 1);
+    CHECK_THAT(told[0], Catch::StartsWith("no joint positions were found that reach the goal, "));
+  }
+  vpJointVector q = random();
+  q(1) = arm.upper()(1);
+  CHECK(hindrances(arm, q, placeOf(q), isFixed) ==
+        std::vector<std::string>{"joint q2 is at its upper limit " + vpApp::number(arm.upper()(1), 4)});
 }

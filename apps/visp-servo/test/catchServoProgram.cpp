@@ -373,8 +373,32 @@ TEST_CASE("the goal that is not reached in time is status 1, with the report", "
 {
   ProgramRun run(SERVO);
   CHECK(run("--duration 0.5 --out a", WITH_REPORT) == DATA);
-  CHECK(run.err().find("the goal was not reached in 0.5 s; the report shows the way (at the end: The ") != std::string::npos);
+  CHECK(run.err().find("the goal was not reached in 0.5 s; the report shows the way (at the end: The ") !=
+        std::string::npos);
   CHECK(std::filesystem::exists(run.path("a/report.html")));
+}
+
+TEST_CASE("a goal out of reach is told before the arm moves, and at the end", "[visp-servo]")
+{
+  const std::string word = "no joint positions were found that reach the goal";
+  ProgramRun run(SERVO);
+  CHECK(run("--duration 0.5 --out a") == DATA);
+  CHECK(run.err().find(word) == std::string::npos);
+  CHECK(run("--duration 0.5 --object-pose 0,0,4,0,0,0 --size 2 --goal-pose 0,0,1,0,0,0 --out b") == DATA);
+  CHECK(run.err().find("visp-servo: " + word + ", 3.000 m and 0.0 degrees away") != std::string::npos);
+  CHECK(run.out().find("At the end: " + word) != std::string::npos);
+}
+
+TEST_CASE("a rendered camera has the intrinsics of a file", "[visp-servo]")
+{
+  ProgramRun run(SERVO);
+  run.write("mine.xml",
+            "<root><camera><name>Mine</name><image_width>400</image_width><image_height>300</image_height><model>"
+            "<type>perspectiveProjWithDistortion</type><px>410</px><py>412</py><u0>203</u0><v0>148</v0><kud>-0.1</kud>"
+            "<kdu>0.1</kdu></model></camera></root>");
+  CHECK(run("--camera-xml mine.xml --out a") == OK);
+  const json camera = summaryIn(run, "a")["scene"]["camera"];
+  CHECK(camera == json{{"px", 410.}, {"py", 412.}, {"u0", 203.}, {"v0", 148.}, {"width", 400}, {"height", 300}});
 }
 
 TEST_CASE("an AprilTag of ViSP's images is found", "[visp-servo]")
