@@ -43,6 +43,7 @@ def code(span):
 
 
 def prose(page, text):
+    text = re.sub(r"^\[!\[.*/badge[.]svg\).*\n", "", text, flags=re.M)  # badges are of the forge
     text = re.sub(r"!\[([^\]]*)\]\(([^)]*)\)", lambda m: figure(page, m[1], m[2]), text)
     text = re.sub(r"(!\[[^\]]*\]\()(?:\.\./)+", r"\1", text)  # doxygen looks up a figure by the end of its path
     text = re.sub(r'(<img src=")[^"]*/', r"\1", text)  # and puts all into one folder

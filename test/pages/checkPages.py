@@ -192,7 +192,7 @@ class Checker:
         folder = (self.root / self.page).parent
         prose = re.sub(r"^```.*?^```|`[^`\n]*`", "", text, flags=re.S | re.M)
         for target in re.findall(r"\]\(([^()\s]+)\)", prose) + re.findall(r'<img src="([^"]+)"', prose):
-            if re.match(r"(https?|mailto):", target):
+            if re.match(r"(https?|mailto):|[.][.]/[.][.]/actions/", target):  # the last: on the forge, beside the repository
                 continue
             self.counts["links"] += 1
             file, _, anchor = target.partition("#")
