@@ -183,5 +183,6 @@ void bindScene(py::module_ &m);
 void bindMotion(py::module_ &m);
 void bindServoing(py::module_ &m);
 void bindSimulation(py::module_ &m);
+void bindRendering(py::module_ &m);
 } // namespace visp_python
 #endif

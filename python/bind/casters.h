@@ -247,7 +247,7 @@ template <std::size_t N> struct type_caster<std::array<vpImagePoint, N>> {
   }
 };
 
-//! An image is the array's own memory, seen by vpImage: nothing is copied when its pixels are in sequence.
+//! An image is the array's own memory, seen by vpImage: nothing is copied when its pixels are in sequence. A result is a copy.
 template <class Pixel> struct type_caster<vpImage<Pixel>> {
   static constexpr auto name = const_name("numpy.ndarray");
   template <class> using cast_op_type = const vpImage<Pixel> &;
@@ -263,6 +263,12 @@ template <class Pixel> struct type_caster<vpImage<Pixel>> {
     return true;
   }
   operator const vpImage<Pixel> &() const { return m_image; }
+  static handle cast(const vpImage<Pixel> &image, return_value_policy policy, handle)
+  {
+    array_t<Pixel> pixels({image.getHeight(), image.getWidth()});
+    std::copy_n(image.bitmap, image.getSize(), pixels.mutable_data());
+    return visp_python::released(std::move(pixels), policy);
+  }
 
 private:
   array m_pixels; // keeps the memory

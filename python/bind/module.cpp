@@ -107,4 +107,5 @@ PYBIND11_MODULE(_core, m)
   bindMotion(m);
   bindServoing(m);
   bindSimulation(m);
+  bindRendering(m);
 }

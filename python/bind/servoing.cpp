@@ -21,13 +21,6 @@ namespace
 {
 using Servo = vpVisualServo;
 
-py::array_t<unsigned char> pixelsOf(const vpImage<unsigned char> &image)
-{
-  py::array_t<unsigned char> pixels({image.getHeight(), image.getWidth()});
-  std::memcpy(pixels.mutable_data(), image.bitmap, pixels.size());
-  return pixels;
-}
-
 // A source of poses written in Python: source(image) returns cMo, or (cMo, covariance), or None.
 vpServoVision::PoseSource sourceOf(const py::function &source)
 {
@@ -38,7 +31,7 @@ vpServoVision::PoseSource sourceOf(const py::function &source)
   });
   return [kept](const vpImage<unsigned char> &image, vpHomogeneousMatrix &cMo, vpPoseCovariance &covariance) {
     const py::gil_scoped_acquire locked;
-    const py::object pose = (*kept)(pixelsOf(image));
+    const py::object pose = (*kept)(image);
     if (pose.is_none()) {
       return false;
     }
@@ -95,7 +88,7 @@ void bindTeacher(py::module_ &m)
       .def("add", &Teacher::add, py::arg("image"), Unlocked(), doc(in + "add"))
       .def("isComplete", &Teacher::isComplete, doc(in + "isComplete"))
       .def(
-          "image", [](const Teacher &self) { return pixelsOf(self.image()); }, doc(in + "image"))
+          "image", [](const Teacher &self) -> vpImage<unsigned char> { return self.image(); }, doc(in + "image"))
       .def("pointNoise", &Teacher::pointNoise, doc(in + "pointNoise"))
       .def("averageNoise", &Teacher::averageNoise, doc(in + "averageNoise"))
       .def("message", &Teacher::message, doc(in + "message"));

@@ -62,7 +62,7 @@ def test_stubs_have_the_same_names():
 @pytest.fixture(scope="module")
 def calls(tmp_path_factory):
     """What calls.py writes of a run of the other tests."""
-    files = [HERE / f"test_{name}.py" for name in "arm motion observers perception printing servo simulation specs trajectory vision".split()]
+    files = [HERE / f"test_{name}.py" for name in "arm motion observers perception printing rendering servo simulation specs trajectory vision".split()]
     written = tmp_path_factory.mktemp("calls") / "calls.json"
     environment = {**os.environ, "VISP_DIRECT_CALLS": str(written), "VISP_DIRECT_SEED": "", "VISP_DIRECT_LONG_TESTS": "1"}
     environment["VISP_DIRECT_CHEAP"] = "0.03" if longer(1) > 1 else "0.0005"  # with the former it takes minutes

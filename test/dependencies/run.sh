@@ -5,9 +5,10 @@ usage() {
   cat <<'TEXT'
 usage: test/dependencies/run.sh [NAME...]
 
-Everything is built in build/with-all and, once for each NAME, in build/without-NAME: KDL, URDFDOM, OCTOMAP, ASSIMP, FCL, OMPL, DLIB,
-ARAVIS, CLI11 or PYTHON (by default all of them). There all tests are run but those whose program and libraries are the same files as
-in build/with-all, which ./test.sh has run. CTEST_ARGS="-R Servo" goes to ctest; JOBS=N sets the number of compilers and tests at work.
+In build/dependencies everything is built, then once without each NAME: KDL, URDFDOM, OCTOMAP, ASSIMP, FCL, OMPL, DLIB, ARAVIS, CLI11 or
+PYTHON (by default all of them). There all tests are run but those whose program is the same file as with everything, and so are the
+programs and libraries of this project that it uses: ./test.sh runs these. CTEST_ARGS="-R Servo" goes to ctest; JOBS=N sets the number of
+compilers and tests at work.
 TEXT
 }
 case ${1:-} in -h | --help) usage; exit 0 ;; esac
@@ -28,38 +29,46 @@ expect() {
   fi
 }
 
-# build FOLDER OPTION...: configures and builds; binaries do not hold the folder's path, so that they can be compared.
+build=build/dependencies
+# build OPTION...: configures afresh and builds what has changed since.
 build() {
-  local folder=$1
-  shift
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON -DVISP_DIRECT_BUILD_BENCHMARKS=OFF "$@" \
-    "${launcher[@]}" >"$folder.log" 2>&1 || { cat "$folder.log" >&2; exit 1; }
-  cp "$folder.log" "$folder.configured"
-  cmake --build "$folder" -j "$jobs" >"$folder.log" 2>&1 || { tail -40 "$folder.log" >&2; exit 1; }
+  rm -f "$build/CMakeCache.txt"
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVISP_DIRECT_BUILD_BENCHMARKS=OFF "$@" "${launcher[@]}" >"$build.log" 2>&1 ||
+    { cat "$build.log" >&2; exit 1; }
+  ninja -C "$build" -t cleandead >/dev/null
+  cp "$build.log" "$build/configured.log"
+  cmake --build "$build" -j "$jobs" >"$build.log" 2>&1 || { tail -40 "$build.log" >&2; exit 1; }
 }
 
-# unchanged FOLDER: tests whose program, and the libraries of this project that it loads, are those of build/with-all, as a|b|c.
+# binaries: "SUM FILE" of each program and library.
+binaries() { (cd "$build" && find bin lib -type f -exec sha256sum {} + | sort -k 2); }
+
+# named FILE...: files of the build that these load, or whose paths are compiled into them.
+named() {
+  { for file; do ldd "$file" | sed 's/ (.*//'; strings "$file"; done; printf '%s\n' "$@"; } |
+    sed -n "s|.*\($PWD/$build/[^ \"']*\).*|\1|p" | sort -u | xargs -r realpath -m
+}
+
+# unchanged: tests all of whose files are as with everything, as none|a|b|c.
 unchanged() {
-  local program library names=none
-  for program in "$1"/bin/catch*; do
-    cmp -s "$program" "build/with-all/bin/${program##*/}" || continue
-    for library in $(ldd "$program" | sed -n "s|.* => .*/$1/\(lib/[^ ]*\) .*|\1|p"); do
-      cmp -s "$1/$library" "build/with-all/$library" || continue 2
-    done
-    names+="|${program##*/}"
+  local test names=none changed programs
+  changed=$(comm -13 <(binaries | sort) <(sort "$build/everything.txt") | sed "s|.* |$PWD/$build/|")
+  for test in "$PWD/$build"/bin/catch*; do
+    mapfile -t programs < <(named "$test" | grep "/bin/" | xargs -r ls -d 2>/dev/null)
+    named "$test" "${programs[@]}" | grep -qxF "$changed" || names+="|${test##*/}"
   done
   echo "$names"
 }
 
 mkdir -p build
 echo "== with everything"
-build build/with-all
+build
+binaries >"$build/everything.txt"
 for name; do
-  build=build/without-$name
   out=$(mktemp -d)
   echo "== without $name"
-  build "$build" "-DWITH_$name=OFF"
-  grep -q "$name is switched off\|no programs are built" "$build.configured" || { echo "dependencies: no word about $name" >&2; exit 1; }
+  build "-DWITH_$name=OFF"
+  grep -q "$name is switched off\|no programs are built" "$build/configured.log" || { echo "dependencies: no word about $name" >&2; exit 1; }
   bin=$build/bin
   [ "$name" = CLI11 ] || expect 0 "cells printed" "$bin/visp-print-pattern" --cells 3 --no-thesis --out "$out/print"
   case $name in
@@ -68,7 +77,7 @@ for name; do
   OMPL) expect 0 "report.html" "$bin/visp-avoid-obstacle" --method planner --out "$out/planner" ;;
   esac
   rm -rf "$out"
-  same=$(unchanged "$build")
+  same=$(unchanged)
   # shellcheck disable=SC2086 # several arguments
   OMP_NUM_THREADS=1 ctest --test-dir "$build" -j "$jobs" -E "^($same)\$" --no-tests=error --output-on-failure ${CTEST_ARGS:-} >"$build.log" 2>&1 ||
     { grep -A 20 "tests passed" "$build.log" >&2; echo "dependencies: the whole output is in $build.log" >&2; exit 1; }
