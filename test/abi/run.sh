@@ -36,10 +36,10 @@ done >"$work/headers.cpp"
 "${ABIDW:-abidw}" --load-all-types "$work/headers.so" >"$work/headers.xml"
 {
   awk -f "$here/types.awk" "$work/headers.xml"
-  # Weak ones are copies of inline functions: which of them are exported is up to the compiler.
+  # Weak ones are copies of inline functions: which of them are exported is up to the compiler; so are tables of types.
   for library in "$libraries"/libvisp_*.so; do
     nm -DC --defined-only "$library" | sed -nE 's/^[0-9a-f]+ [TDBR] //p'
-  done | grep -v '::Impl::'
+  done | grep -vE '::Impl::|^_ZT[VIS]'
 } | c++filt | shorten | sort -u >"$work/interface.txt"
 
 if [ -n "${VISP_DIRECT_UPDATE_INTERFACE:-}" ]; then

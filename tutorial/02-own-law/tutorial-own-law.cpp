@@ -54,7 +54,8 @@ int main()
     const Eigen::Vector4d derivative = (at(1e-5) - at(-1e-5)) / 2e-5;
     worst = std::max(worst, (derivative + k.cwiseProduct(errorOf(seen.cMo, goal.cdMo))).cwiseAbs().maxCoeff());
   }
-  std::cout << "e' = -k e, worst difference at 1000 places: " << worst << std::endl;
+  std::cout << "e' = -k e, worst difference at 1000 places below " << std::pow(10., std::ceil(std::log10(worst)))
+            << std::endl;
   //! [Check]
   //! [Run]
   std::ofstream log("tutorial-own-law.txt"); // time, the four errors, the four expected ones
