@@ -143,6 +143,7 @@ using vpApp::number;
 
 constexpr double ROUNDING = 1e-9;   // relative tolerance of a bound
 constexpr double GOAL_NOISE = 0.01; // m
+constexpr double NOISY_UNTIL = 1.9; // s
 
 std::string text(const Vector2d &p) { return "[" + number(p.x(), 4) + ", " + number(p.y(), 4) + "] m"; }
 
@@ -255,9 +256,23 @@ PointTask following(unsigned int seed)
   task.told = [random](double t) {
     std::normal_distribution<double> noise(0., GOAL_NOISE);
     const double dx = noise(*random), dy = noise(*random);
-    return Vector2d(objectAt(t) + (t < 1.9 ? Vector2d(dx, dy) : Vector2d::Zero()));
+    return Vector2d(objectAt(t) + (t < NOISY_UNTIL ? Vector2d(dx, dy) : Vector2d::Zero()));
   };
   return task;
+}
+
+//! Rms second difference of a place of the samples from one goal to the next, while these are noisy, m.
+double unevenness(const PointTask &task, const PointMotion &motion, Vector2d PointSample::*place)
+{
+  const auto step = static_cast<std::size_t>(std::lround(task.toldEvery / pointPeriod));
+  double sum = 0.;
+  int count = 0;
+  for (std::size_t i = 1; i + 2 * step < motion.samples.size() && motion.samples[i + 2 * step].time < NOISY_UNTIL;
+       i += step, ++count) {
+    const auto at = [&](std::size_t k) -> const Vector2d & { return motion.samples[i + k * step].*place; };
+    sum += (at(2) - 2. * at(1) + at(0)).squaredNorm();
+  }
+  return std::sqrt(sum / count);
 }
 
 void compareFollowing(const PointTask &task, const PointMotion &motion, Replica &replica)
@@ -283,6 +298,8 @@ void compareFollowing(const PointTask &task, const PointMotion &motion, Replica 
                              number(1000. * after, 3) + " mm when the object moved for the second time.");
   replica.numbers["goal_noise_m"] = GOAL_NOISE;
   replica.numbers["rms_distance_m"] = rms;
+  replica.numbers["unevenness_over_that_of_goal"] =
+      unevenness(task, motion, &PointSample::place) / unevenness(task, motion, &PointSample::goal);
 }
 } // namespace
 

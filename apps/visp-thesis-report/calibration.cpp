@@ -362,6 +362,8 @@ std::vector<Item> distortion(const Setting &)
   Item item;
   item.id = "fig7.10";
   item.quantities = mismatches();
+  item.quantities.push_back({"area of an image of 640 x 480 px of 4.5 um", "mm^2", 6.2, 640. * 480. * 4.5e-3 * 4.5e-3,
+                             Tolerance::distance(0.05), Good::Neither, "", ""});
   item.remarks = {
       "(7.5) says nothing but u (1 + kappa1 r^2): 1 % at 200 px is 2 px there by definition. The values of kappa1 "
       "that the figure draws are not in the text.",

@@ -132,6 +132,8 @@ std::vector<Item> detection(const Setting &setting)
       {"most whole cells in an image", "1", 15., static_cast<double>(printed.most), Tolerance::distance(0.),
        Good::Neither, "",
        "The thesis: 3 x 5. On average " + number(1. * static_cast<double>(printed.whole) / MEASURED_IMAGES, 3) + "."},
+      {"area of an image of 160 x 100 px of 4.5 um", "mm^2", 0.3, 160. * 100. * 4.5e-3 * 4.5e-3,
+       Tolerance::distance(0.05), Good::Neither, "", ""},
       row("Algorithm 7.4 mended", mended),
       row("edges at half height", edges),
       row("vpPatternTracker", tracker),

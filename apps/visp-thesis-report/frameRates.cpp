@@ -387,5 +387,33 @@ std::vector<Item> frameRates(const Setting &setting)
   return items;
 }
 
+std::vector<Item> dropDelay(const Setting &)
+{
+  constexpr double HEIGHT = 1e-3, SPEED = 5., PIXEL = 4.5e-6, ALLOWED = 10e-6; // m, m/s, m, m, from the thesis
+  constexpr double AT_CENTRE = 4., MEAN = 5., TOLERATED = 2.9;                 // px/frame, from the thesis
+  constexpr double flight = HEIGHT / SPEED, unit = PIXEL * RATE, cells = 480.; // s, m/s
+  constexpr double row = cells * LENGTH / (MEAN * unit);                       // s
+  Item item;
+  item.id = "fig7.3";
+  const auto add = [&item](const char *name, const char *unitName, double thesis, double follows, double rounding) {
+    item.quantities.push_back({name, unitName, thesis, follows, Tolerance::distance(rounding), Good::Neither, "", ""});
+  };
+  add("way of the stage during the flight of a drop", "um", 5.76, 1e6 * AT_CENTRE * unit * flight, 0.005);
+  add("the same in pixels", "px", 1.28, AT_CENTRE * unit * flight / PIXEL, 0.005);
+  add("highest velocity at which a drop released at the centre lands within 10 um", "px/frame", 6.9,
+      ALLOWED / flight / unit, 0.05);
+  add("lowest velocity at which a drop released at the centre lands within 10 um", "px/frame", AT_CENTRE - TOLERATED,
+      -ALLOWED / flight / unit, 0.05);
+  item.quantities.back().reason = "The drop lands the velocity times 0.2 ms beyond the centre, so the slower the "
+                                  "nearer: there is no lower bound.";
+  add("tolerance of the velocity, 2.9 px/frame", "mm/s", 20.9, 1e3 * TOLERATED * unit, 0.05);
+  add("time of a row of 480 cells", "s", 2.93, row, 0.005);
+  add("print frequency", "Hz", 160., cells / row, 5.);
+  item.parameters = {{"from the thesis",
+                      "5 m/s and 1 mm of flight, 4.5 um a pixel, 1600 fps, 4 px/frame at the centres, "
+                      "5 on average, 10 um of tolerance, cells of 220 um"}};
+  return {item};
+}
+
 std::vector<Item> trackability(const Setting &setting) { return {trackabilityItem(setting)}; }
 } // namespace thesisReport

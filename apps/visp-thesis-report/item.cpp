@@ -158,7 +158,8 @@ Item seedsMerged(std::vector<Item> seeds)
     }
     const bool known =
         std::none_of(quantity.seeds.begin(), quantity.seeds.end(), [](double x) { return std::isnan(x); });
-    quantity.ours = known ? vpQuantile(quantity.seeds, quantity.never ? 1. : 0.5) : std::nan("");
+    const double share = quantity.never ? (quantity.tolerance.isAtLeast() ? 0. : 1.) : 0.5;
+    quantity.ours = known ? vpQuantile(quantity.seeds, share) : std::nan("");
   }
   return merged;
 }

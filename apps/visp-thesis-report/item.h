@@ -38,6 +38,8 @@ public:
   [[nodiscard]] std::string text() const;
   //! A bound or a claim: only one side is wrong.
   [[nodiscard]] bool isOneSided() const { return m_kind == Kind::AtMost || m_kind == Kind::AtLeast; }
+  //! A lower bound.
+  [[nodiscard]] bool isAtLeast() const { return m_kind == Kind::AtLeast; }
 
   //! See sweep.h.
   template <class Archive> friend void exchange(Archive &archive, Tolerance &tolerance)
@@ -73,12 +75,12 @@ struct Quantity {
   std::string name;             //!< "rms velocity error".
   std::string unit;             //!< "px/frame"; "1" for a ratio or a count.
   std::optional<double> thesis; //!< Value or claimed bound of the thesis; none: not given.
-  double ours = 0.;             //!< Measured in this run; of several seeds the median, or the largest if #never.
+  double ours = 0.;             //!< Measured in this run; of several seeds the median, or the worst if #never.
   Tolerance tolerance = Tolerance::factor(1.1);
   Good good = Good::Neither;
   std::string reason;          //!< Reason for a difference; shown only then.
   std::string note;            //!< Measurement method; always shown. Of several seeds that of the first.
-  bool never = false;          //!< An upper bound that is never exceeded: one run that does so is enough.
+  bool never = false;          //!< A bound that no run may break: one that does so is enough.
   Judgement judgement{};       //!< What a second reader needs; see Judgements.
   std::vector<double> seeds{}; //!< #ours of each seed; empty before seedsMerged().
 };

@@ -31,6 +31,9 @@ VISP_DIRECT_USING_NAMESPACE
 [[nodiscard]] std::vector<Item> keypointTable(const Setting &setting); //!< Table 4.2.
 [[nodiscard]] std::vector<Item> poseTable(const Setting &setting);     //!< Table 4.3.
 
+//! What the text says of the order of the accuracies of table 4.3, from the means that the thesis prints.
+[[nodiscard]] std::vector<Quantity> ownOrders();
+
 //! Camera of both tables: 640 x 480 px, focal length 800 px.
 [[nodiscard]] vpCameraParameters keypointCamera();
 

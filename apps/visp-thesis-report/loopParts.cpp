@@ -144,14 +144,16 @@ std::vector<Item> plannedInLoop(const Setting &setting)
   Item item;
   item.id = "fig6.1";
   const auto exceeded = [&](const std::string &robot, const vpServoRun &run) {
-    return Quantity{run.spec.law + ": cycles beyond a limit, " + robot,
-                    "1",
-                    0.,
-                    run.metrics.bounds_exceeded_cycles,
-                    Tolerance::atMost(),
-                    Good::Smaller,
-                    "",
-                    "Of the commanded speed, acceleration and jerk, in 24 s."};
+    Quantity quantity{run.spec.law + ": cycles beyond a limit, " + robot,
+                      "1",
+                      0.,
+                      run.metrics.bounds_exceeded_cycles,
+                      Tolerance::atMost(),
+                      Good::Smaller,
+                      "",
+                      "Of the commanded speed, acceleration and jerk, in 24 s. Of several seeds the largest."};
+    quantity.never = true;
+    return quantity;
   };
   item.quantities = {
       {"acceleration of motion from an error alone over the limit, PBVS", "1", 1.,

@@ -54,10 +54,11 @@ struct Part {
 [[nodiscard]] std::vector<Part> servoParts();        //!< Figures 5.6 to 5.11.
 [[nodiscard]] std::vector<Part> plannedServoParts(); //!< Figure 6.1.
 [[nodiscard]] std::vector<Part> trajectoryParts();   //!< Figures 6.3 to 6.6.
-[[nodiscard]] std::vector<Part> patternParts();   //!< Figure 7.1, (7.1), (7.2), tables 7.1 to 7.4, figures 7.10, 7.11.
-[[nodiscard]] std::vector<Part> printingParts();  //!< Figures 7.12 to 7.15.
-[[nodiscard]] std::vector<Part> avoidanceParts(); //!< Figures 8.6 to 8.10 and 8.13.
-[[nodiscard]] std::vector<Part> armParts();       //!< Table 8.1, figures 8.14 to 8.17.
+[[nodiscard]] std::vector<Part>
+patternParts(); //!< Figures 7.1, 7.3, (7.1), (7.2), tables 7.1 to 7.4, figures 7.10, 7.11.
+[[nodiscard]] std::vector<Part> printingParts();       //!< Figures 7.12 to 7.15.
+[[nodiscard]] std::vector<Part> avoidanceParts();      //!< Figures 8.6 to 8.10 and 8.13.
+[[nodiscard]] std::vector<Part> armParts();            //!< Table 8.1, figures 8.14 to 8.17.
 [[nodiscard]] std::vector<Part> recommendationParts(); //!< Section 9.2.
 [[nodiscard]] std::vector<Part> minimumJerkParts();    //!< Table A.1.
 } // namespace thesisReport

@@ -45,10 +45,12 @@ std::vector<Part> patternParts()
     return Part{"Chapter 7: product pattern-based visual servoing", {{id, title}}, cost, play};
   };
   Part lens = part("fig7.10", "mismatch of pixel locations by radial distortion", 0.5, distortion);
-  lens.random = false;
+  Part drops = part("fig7.3", "way during the flight of a drop, and what it allows", 0.1, dropDelay);
+  lens.random = drops.random = false;
   Part rates = part("fig7.1", "high-speed vision systems and what interfaces carry", 8., frameRates);
   rates.entries.push_back({"eq7.2", "time of an image against its size"});
   return {rates,
+          drops,
           part("eq7.1", "trade-off of magnification and trackability", 2., trackability),
           part("table7.1", "thresholding algorithms", 6., thresholds),
           part("table7.2", "derivative operators", 2., derivatives),

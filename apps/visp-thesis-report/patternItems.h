@@ -22,6 +22,7 @@ namespace thesisReport
 VISP_DIRECT_USING_NAMESPACE
 
 [[nodiscard]] std::vector<Item> frameRates(const Setting &setting);   //!< Figure 7.1, (7.2).
+[[nodiscard]] std::vector<Item> dropDelay(const Setting &setting);    //!< Figure 7.3.
 [[nodiscard]] std::vector<Item> trackability(const Setting &setting); //!< (7.1).
 [[nodiscard]] std::vector<Item> thresholds(const Setting &setting);   //!< Table 7.1.
 [[nodiscard]] std::vector<Item> derivatives(const Setting &setting);  //!< Table 7.2.

@@ -154,12 +154,12 @@ void addOrders(Item &item, const std::vector<Measured> &all)
   };
   const auto threeSigma = [](const Spread &spread) { return 3. * spread.sigma(); };
   const auto offMean = [](const Spread &spread) { return std::fabs(spread.mean()); };
-  for (const PoseAxis axis : {PoseAxis::Roll, PoseAxis::Pitch, PoseAxis::Yaw}) {
-    add(std::string(nameOf(axis)) + ", 3 sigma at 30 deg over that at 0",
-        meanOfEnds(axis, threeSigma) / threeSigma(errors(axis, 3)), Tolerance::atLeast());
-  }
   for (const auto &[name, value] :
        {std::pair<std::string, double (*)(const Spread &)>{"3 sigma", threeSigma}, {"error of the mean", offMean}}) {
+    for (const PoseAxis axis : {PoseAxis::Roll, PoseAxis::Pitch, PoseAxis::Yaw}) {
+      add(name + " at 30 deg over that at 0, " + nameOf(axis), meanOfEnds(axis, value) / value(errors(axis, 3)),
+          Tolerance::atLeast());
+    }
     add(name + " at 30 deg, roll over pitch and yaw",
         2. * meanOfEnds(PoseAxis::Roll, value) /
             (meanOfEnds(PoseAxis::Pitch, value) + meanOfEnds(PoseAxis::Yaw, value)),
@@ -243,6 +243,8 @@ Item itemOf(const std::vector<Measured> &all)
     plots.push_back(plotOf(rows()[r], all[r]));
   }
   addOrders(item, all);
+  const std::vector<Quantity> own = ownOrders();
+  item.quantities.insert(item.quantities.end(), own.begin(), own.end());
   for (std::size_t r = 0; r < rows().size(); ++r) {
     addOthers(item, rows()[r], all[r]);
   }
@@ -266,6 +268,34 @@ Item itemOf(const std::vector<Measured> &all)
   return item;
 }
 } // namespace
+
+std::vector<Quantity> ownOrders()
+{
+  std::vector<Quantity> orders;
+  const auto error = [](PoseAxis axis, std::size_t offset) {
+    const Row &row = rows()[static_cast<std::size_t>(axis)];
+    return std::fabs(row.thesis[offset].mean - row.offsets[offset]);
+  };
+  const auto ends = [&](PoseAxis axis) {
+    return 0.5 * (error(axis, 0) + error(axis, rows()[static_cast<std::size_t>(axis)].offsets.size() - 1));
+  };
+  const auto add = [&](const std::string &name, double ratio, const Tolerance &tolerance, const std::string &reason) {
+    orders.push_back({"the thesis's own error of the mean " + name, "1", 1., ratio, tolerance, Good::Neither, reason,
+                      "From the printed means; means of the two ends of a row."});
+  };
+  for (const PoseAxis axis : {PoseAxis::Roll, PoseAxis::Pitch, PoseAxis::Yaw}) {
+    add(std::string("at 30 deg over that at 0, ") + nameOf(axis), ends(axis) / error(axis, 3), Tolerance::atLeast(),
+        "The table has " + number(error(axis, 3), 3) + " deg at 0, and " + number(error(axis, 0), 3) + " and " +
+            number(error(axis, 6), 3) + " at the ends.");
+  }
+  add("at 30 deg, roll over pitch and yaw", 2. * ends(PoseAxis::Roll) / (ends(PoseAxis::Pitch) + ends(PoseAxis::Yaw)),
+      Tolerance::atMost(), "");
+  for (const PoseAxis axis : {PoseAxis::X, PoseAxis::Y}) {
+    add(std::string("at the largest offset, ") + nameOf(axis) + " over z", ends(axis) / ends(PoseAxis::Z),
+        Tolerance::atLeast(), "");
+  }
+  return orders;
+}
 
 std::vector<Item> poseTable(const Setting &setting)
 {

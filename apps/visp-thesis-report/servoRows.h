@@ -14,6 +14,7 @@
 #include "lab/servo/vpServoExperiment.h"
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-d
 [[nodiscard]] double yawError(const vpServoRun &run); //!< Rms.
 //! Largest rotation of the reference towards pose 2, relative to the rotation of the goal.
 [[nodiscard]] double peakReference(const vpServoRun &run);
+//! The same of each new pose, in order, from the goal before it.
+[[nodiscard]] std::vector<double> peakReferences(const vpServoRun &run);
 //! Mean distance of the reference from the goal over the last second at pose 2.
 [[nodiscard]] double referenceLeft(const vpServoRun &run);
 [[nodiscard]] double yawRange(const vpServoRun &run);
@@ -38,6 +41,10 @@ constexpr const char *FEEDFORWARD = "ff-sum", *PBVS = "pbvs1", *KYRKI = "kyrki-d
 [[nodiscard]] double lostAtPose2(const vpServoRun &run);
 //! Rms image error along u on the path 1 - 2 - 1, px.
 [[nodiscard]] double imageError(const vpServoRun &run);
+//! Largest image error along u on this path, px.
+[[nodiscard]] double largestImageError(const vpServoRun &run);
+//! Mean image error along u over the last second at pose 2 and, back, at pose 1, the larger, px.
+[[nodiscard]] double imageErrorLeft(const vpServoRun &run);
 
 constexpr double EQUAL = 0.05;     //!< Two errors that differ by less are "equal"; "clear greater" is more than that.
 constexpr double ROUNDING = 0.001; //!< An overshoot is more than that.
@@ -51,6 +58,17 @@ constexpr double SAME = 0.01; //!< A ratio of ranges nearer to 1 is not "greater
                                const std::string &note = "");
 //! A ratio of Kyrki's law over PBVS that the thesis calls minimal: clearly below 1.
 [[nodiscard]] Quantity minimal(const std::string &name, double ours, const std::string &note = "");
+
+//! A number by law.
+using Values = std::map<std::string, double>;
+//! "PBVS 1, Kyrki 2, feedforward 3 px."
+[[nodiscard]] std::string inWords(Values values, const std::string &unit);
+
+//! Reason for what an integral would take away.
+constexpr const char *HELD_SHORT = "Friction holds every law without an integral short of its goal.";
+//! Image errors that are left, px: PBVS does not reach zero, feedforward does. \param reason : For a difference of either.
+[[nodiscard]] std::vector<Quantity> errorsLeft(const std::string &on, Values left, const Values &largest,
+                                               const std::string &reason);
 
 /*!
  * \brief Adds rows of further runs to the items: figures 5.8 to 5.11 on AMOR with both references of the drives,

@@ -144,7 +144,7 @@ TEST_CASE("The constants of (6.10), and where (5.31) holds", "[program]")
 TEST_CASE("Chapter 7 up to figure 7.11: what is arithmetic, and what follows from it", "[program]")
 {
   ProgramRun run(THESIS_REPORT);
-  REQUIRE(run("--only table7.3,fig7.10,table7.4 --seeds 1 --out out --jobs 2") == 0);
+  REQUIRE(run("--only fig7.3,table7.3,fig7.10,table7.4 --seeds 1 --out out --jobs 2") == 0);
   const Json rows = Json::parse(vpApp::readFile(run.path("out/results.json")));
   for (const Json &row : rows) {
     CAPTURE(row.dump());
@@ -153,6 +153,9 @@ TEST_CASE("Chapter 7 up to figure 7.11: what is arithmetic, and what follows fro
   // kappa1 of table 7.4 at 80 px of 4.5 um, by hand: 3.84e-10 * 360^3 um.
   CHECK(valueOf(rows, "fig7.10", "mismatch of the thesis's lens at 80 px") == Approx(0.01791590).epsilon(1e-5));
   CHECK(valueOf(rows, "fig7.10", "mismatch of 0.1 % distortion at 200 px") == Approx(0.2));
+  CHECK(valueOf(rows, "fig7.3", "highest velocity at which a drop released at the centre lands within 10 um") ==
+        Approx(10e-6 / 0.2e-3 / (4.5e-6 * 1600.)));
+  CHECK(valueOf(rows, "fig7.3", "time of a row of 480 cells") == Approx(2.933333).epsilon(1e-6));
   // The delay is the thesis's exposure and readout plus the time measured in the same run.
   CHECK(valueOf(rows, "table7.3", "start-to-end delay") ==
         Approx(550. + valueOf(rows, "table7.3", "visual processing")));

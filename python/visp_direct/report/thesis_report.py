@@ -168,7 +168,7 @@ def answer(page, summary, rows):
     shaky = [row for row in compared if row["share_of_seeds"] < 1]
     if summary["seeds"] > 1:
         said = f"in {counted(len(shaky), 'row')} not every seed gives the same verdict" if shaky else "every seed gives the same verdicts"
-        page.answers(f"Values are medians of {summary['seeds']} seeds, largest ones where a bound is never exceeded; {said}.")
+        page.answers(f"Values are medians of {summary['seeds']} seeds, worst ones where a bound must hold in every run; {said}.")
     missing = [row for row in rows if "Not explained" in row["reason"] or (row["reason"] and not row["support"])]
     if missing:
         page.answers(f"{counted(len(missing), 'reason')} lack a run or test that shows them.")
