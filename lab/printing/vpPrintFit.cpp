@@ -27,7 +27,7 @@ constexpr double cell = 220. / 4.5;                    // px
 constexpr int stepFrames = 480, figureFrames = 120;    // 0.3 s; 0.075 s
 constexpr int settled = 60;                            // frame from which figures 7.13 to 7.15 are evaluated
 constexpr double largestError = 1e3;                   // px/frame: of a motion that runs away
-constexpr int coarse = 4;                              // parts of a frame, enough for velocities
+constexpr int coarse = 4;                              // parts of a frame, for the search
 
 //! Value that the parameter with this name has.
 double of(const Eigen::VectorXd &values, const char *name)
@@ -241,13 +241,10 @@ void addUnfiltered(const vpPrintExperimentSpec &ahead, const Runs &with, unsigne
 }
 } // namespace
 
-std::vector<Statement> statementsOf(Figures figures, int seeds, unsigned int first)
+std::vector<Statement> statementsOf(const Figures &figures, int seeds, unsigned int first, int stepSeeds)
 {
-  for (vpPrintExperimentSpec *spec : {&figures.step, &figures.pid, &figures.feedforward, &figures.poor}) {
-    spec->stageParts = coarse;
-  }
-  const Runs step(figures.step, 1, first), pid(figures.pid, seeds, first), ahead(figures.feedforward, seeds, first),
-      poor(figures.poor, seeds, first);
+  const Runs step(figures.step, stepSeeds > 0 ? stepSeeds : seeds, first), pid(figures.pid, seeds, first),
+      ahead(figures.feedforward, seeds, first), poor(figures.poor, seeds, first);
   std::vector<Statement> all;
   const auto error = &vpPrintMetrics::rms_velocity_error, centre = &vpPrintMetrics::centre_velocity_error;
   all.push_back(value("rms velocity error, figure 7.13", "px/frame", 0.57, pid.rms(error), 0.02));
@@ -300,7 +297,11 @@ Result search(PoorFilter poor, int generations, int seeds, unsigned int seed,
       Eigen::VectorXd::Constant(n, 0.5),
       [&](const Eigen::VectorXd &unit) {
         try {
-          return costOf(statementsOf(figuresOf(valuesAt(unit), poor), seeds));
+          Figures figures = figuresOf(valuesAt(unit), poor);
+          for (vpPrintExperimentSpec *spec : {&figures.step, &figures.pid, &figures.feedforward, &figures.poor}) {
+            spec->stageParts = coarse;
+          }
+          return costOf(statementsOf(figures, seeds, 1, 1));
         }
         catch (const vpException &) { // the stage ran away
           return std::numeric_limits<double>::infinity();

@@ -61,9 +61,10 @@ struct Statement {
 };
 /*!
  * Runs the experiments and compares.
- * \param seeds : Number of seeds, > 0. \param first : The first of them.
+ * \param seeds : Number of seeds, > 0. \param first : The first of them. \param stepSeeds : Of figure 7.12; 0: as many.
  */
-[[nodiscard]] std::vector<Statement> statementsOf(Figures figures, int seeds, unsigned int first = 1);
+[[nodiscard]] std::vector<Statement> statementsOf(const Figures &figures, int seeds, unsigned int first = 1,
+                                                  int stepSeeds = 0);
 //! Sum of the squared residuals.
 [[nodiscard]] double costOf(const std::vector<Statement> &statements);
 
