@@ -14,7 +14,7 @@
 #include <visp3/simulation/vpArmDrives.h>
 #include "lab/arm/vpSelfMotionExperiment.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
@@ -254,6 +254,26 @@ void illustrate(const Runs &runs, const std::string &distance, Item &item)
       {"gain", "k_0 as a share of the speed that the spare joints may take (our form of k_0 is bounded)"}};
 }
 
+//! How far joint 4 goes when the arm moves by itself and the tool rests, over the larger of joints 2 and 6; means of a run.
+double freedomOfJoint4(const vpArmModel &arm, const vpSelfMotionRun &run)
+{
+  constexpr double small = 1e-4; // rad
+  constexpr int other[] = {1, 5};
+  double ways[2] = {0., 0.}, way = 0.;
+  vpArmData data, moved;
+  for (const vpSelfMotionSample &sample : run.samples) {
+    vpArmKinematics::forward(arm, sample.q, data);
+    const Eigen::MatrixXd J = vpArmKinematics::geometric(arm, data, vpArmFrame::Base);
+    const Eigen::VectorXd spare = J.fullPivLu().kernel().col(0).normalized();
+    vpArmKinematics::forward(arm, sample.q + small * spare, moved);
+    const auto wayOf = [&](int joint) { return (moved.joint[joint].p - data.joint[joint].p).norm(); };
+    way += wayOf(JOINT_4);
+    ways[0] += wayOf(other[0]);
+    ways[1] += wayOf(other[1]);
+  }
+  return way / std::max(ways[0], ways[1]);
+}
+
 //! Mean of how much higher a joint is in one run than in the other, m.
 double liftedBy(const vpArmModel &arm, const vpSelfMotionRun &run, const vpSelfMotionRun &other, int joint)
 {
@@ -296,7 +316,15 @@ Item point(const char *id, const Eigen::Vector3d &place, const std::string &name
   return item;
 }
 
-Item besideJoint() { return point("fig8.14", {0.45, 0.1, 0.4}, "the point beside it", -VISIBLE, std::nullopt); }
+Item besideJoint()
+{
+  Item item = point("fig8.14", {0.45, 0.1, 0.4}, "the point beside it", -VISIBLE, std::nullopt);
+  item.quantities.push_back({"way by self-motion alone, joint 4 over the larger of joints 2 and 6", "1", 1.,
+                             freedomOfJoint4(*amor(), runSelfMotionExperiment(vpSelfMotionRunSpec::thesis(amor()))),
+                             Tolerance::atLeast(), Good::Neither, "",
+                             "The thesis: joint 4 has the most freedom. Means over the path of the tool."});
+  return item;
+}
 
 //! Point below joint 4 of the first posture.
 Item underJoint()

@@ -25,13 +25,18 @@ constexpr double ARM_ACCELERATION = 2.;                  // m/s^2, ours
 constexpr double KEPT = 1e-9;                            // m/s: rounding tolerance
 constexpr double NEAR = 0.005;                           // m: a via is reached
 
+//! The same, judged by the worst of several seeds.
+Quantity inEveryRun(Quantity quantity)
+{
+  quantity.never = true;
+  quantity.note += " Of several seeds the worst.";
+  return quantity;
+}
+
 Quantity speedKept(double peak)
 {
-  Quantity quantity{
-      "largest speed",         "m/s",         MAX_SPEED, peak,
-      Tolerance::atMost(KEPT), Good::Smaller, "",        "The thesis: not violated. Of several seeds the largest."};
-  quantity.never = true;
-  return quantity;
+  return inEveryRun({"largest speed", "m/s", MAX_SPEED, peak, Tolerance::atMost(KEPT), Good::Smaller, "",
+                     "The thesis: not violated."});
 }
 
 constexpr double REACHED = 0.01; // of a bound: what can be seen in a figure
@@ -39,16 +44,8 @@ constexpr double REACHED = 0.01; // of a bound: what can be seen in a figure
 //! A bound that is reached, so that no shorter time would keep it.
 Quantity reached(const std::string &name, const char *unit, double bound, double peak)
 {
-  Quantity quantity{name + ", reached",
-                    unit,
-                    bound,
-                    peak,
-                    Tolerance::atLeast(REACHED * bound),
-                    Good::Neither,
-                    "",
-                    "The thesis: as the bound is reached, the time is the shortest. Of several seeds the least."};
-  quantity.never = true;
-  return quantity;
+  return inEveryRun({name + ", reached", unit, bound, peak, Tolerance::atLeast(REACHED * bound), Good::Neither, "",
+                     "The thesis: as the bound is reached, the time is the shortest."});
 }
 
 //! \param thesis : None on an arm, of which the thesis gives no distances.
@@ -140,24 +137,15 @@ std::vector<Quantity> armQuantities(const nlohmann::ordered_json &numbers)
 
 std::vector<Quantity> followingQuantities(const nlohmann::ordered_json &numbers)
 {
-  Quantity kept{"largest acceleration",
-                "m/s^2",
-                MAX_ACCELERATION,
-                numbers.at("peak_a"),
-                Tolerance::atMost(KEPT),
-                Good::Smaller,
-                "",
-                "The thesis: guaranteed. Norm over both axes. Of several seeds the "
-                "largest."};
-  kept.never = true;
-  return {kept,
+  return {inEveryRun({"largest acceleration", "m/s^2", MAX_ACCELERATION, numbers.at("peak_a"), Tolerance::atMost(KEPT),
+                      Good::Smaller, "", "The thesis: guaranteed. Norm over both axes."}),
           reached("largest acceleration", "m/s^2", MAX_ACCELERATION, numbers.at("peak_a")),
           {"unevenness of the position over that of the measured object", "1", 0.1,
            numbers.at("unevenness_over_that_of_goal"), Tolerance::atMost(), Good::Smaller, "",
            "The thesis: measurements are noisy, positions are not. Rms second difference over 20 ms, the period of the "
            "measurements."},
-          {"largest change of the acceleration within 1 ms", "m/s^2", 0., numbers.at("largest_step_of_a"),
-           Tolerance::atMost(0.1), Good::Smaller, "", "The thesis: continuous."},
+          inEveryRun({"largest change of the acceleration within 1 ms", "m/s^2", 0., numbers.at("largest_step_of_a"),
+                      Tolerance::atMost(0.1), Good::Smaller, "", "The thesis: continuous."}),
           arrived(distanceOf(numbers.at("end_m"), numbers.at("goal_m")), 1e-6),
           {"distance from the object, rms", "m", std::nullopt, numbers.at("rms_distance_m"), Tolerance::factor(1.1),
            Good::Neither, "", "Setting out included."}};

@@ -159,8 +159,7 @@ void addClaims(Item &item, const std::vector<Column> &all)
       {"matches, SIFT 794 over SURF 244", "1", 90. / 70., all[3].matched.mean() / all[1].matched.mean(),
        Tolerance::factor(2.), Good::Neither,
        "Here SIFT's are bound to the strongest 794 of the reference and of the frame; what the thesis counts as a "
-       "match "
-       "it does not say. The background is no reason, see the rows \"nothing else in view\".",
+       "match it does not say. The background is no reason: SURF has as many without it.",
        "The thesis: \"the number of matched points between the two methods is roughly similar\"."});
 }
 
