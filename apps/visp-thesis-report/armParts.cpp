@@ -262,9 +262,9 @@ double freedomOfJoint4(const vpArmModel &arm, const vpSelfMotionRun &run)
   double ways[2] = {0., 0.}, way = 0.;
   vpArmData data, moved;
   for (const vpSelfMotionSample &sample : run.samples) {
-    vpArmKinematics::forward(arm, sample.q, data);
-    const Eigen::MatrixXd J = vpArmKinematics::geometric(arm, data, vpArmFrame::Base);
-    const Eigen::VectorXd spare = J.fullPivLu().kernel().col(0).normalized();
+    vpArmKinematics::update(arm, sample.q, data);
+    const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(data.J).kernel();
+    const Eigen::VectorXd spare = kernel.col(0).normalized();
     vpArmKinematics::forward(arm, sample.q + small * spare, moved);
     const auto wayOf = [&](int joint) { return (moved.joint[joint].p - data.joint[joint].p).norm(); };
     way += wayOf(JOINT_4);
