@@ -9,6 +9,7 @@
 #include <visp3/direct_core/vpQuantile.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace planCompare
 {
@@ -123,14 +124,23 @@ std::vector<std::string> answerOf(const Plan &plan, const Results &results)
   std::stable_sort(order.begin(), order.end(), [&](const std::string &a, const std::string &b) {
     return results.all(a).successes() > results.all(b).successes();
   });
-  const Cell best = results.all(order.front());
+  const Cell best = results.all(order.front()), worst = results.all(order.back());
+  const auto with = [&](int count) {
+    std::vector<std::string> methods;
+    std::copy_if(order.begin(), order.end(), std::back_inserter(methods),
+                 [&](const std::string &method) { return results.all(method).successes() == count; });
+    return methods;
+  };
+  const std::vector<std::string> leaders = with(best.successes());
   const Interval interval = best.interval();
-  answer.push_back("Of " + std::to_string(best.runs.size()) + " scenes " + order.front() + " solves the most, " +
-                   std::to_string(best.successes()) + " (95 % interval " + fixed(100. * interval.low, 1) + " to " +
-                   fixed(100. * interval.high, 1) + " %)" +
-                   (order.size() > 1 ? "; " + order.back() + " the fewest, " +
-                                           std::to_string(results.all(order.back()).successes()) + "."
-                                     : "."));
+  std::string sentence = "Of " + std::to_string(best.runs.size()) + " runs " + enumerate(leaders) +
+                         (leaders.size() == 1 ? " solves the most, " : " solve the most, each ") +
+                         std::to_string(best.successes()) + " (95 % interval " + fixed(100. * interval.low, 1) +
+                         " to " + fixed(100. * interval.high, 1) + " %)";
+  if (worst.successes() < best.successes()) {
+    sentence += "; " + enumerate(with(worst.successes())) + " the fewest, " + std::to_string(worst.successes());
+  }
+  answer.push_back(sentence + ".");
   const std::vector<std::string> safe = safest(plan, results);
   answer.push_back(safe.empty() ? "Every method touched something while it moved in at least one run."
                                 : enumerate(safe) + " never touched anything while moving" +

@@ -107,7 +107,7 @@ def page(results):
     page = Page("Motions", "Direct trajectory generation: the fastest minimum-jerk motions within the limits.", results)
     count = sum(result.summary["problems"] for result in results)
     refused = sum(result.summary["refused"] for result in results)
-    page.answers(f"{counted(count, 'motion')} planned" + (f", {refused} of them refused." if refused else "."))
+    page.answers(f"{counted(count - refused, 'motion')} planned" + (f", {counted(refused, 'problem')} of {count} refused." if refused else "."))
     for result in results:
         if result.summary["refused"]:
             page.answers(f"{result.name}: the first refusal: {result.summary['first_refusal']}")
