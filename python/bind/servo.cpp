@@ -293,6 +293,9 @@ void bindServo(py::module_ &m)
       "message", [](const vpServoCommand &command) { return vpMessage(command.status); }, doc("vpMessage"));
   m.def(
       "isWorking", [](vpServoStatus status) { return vpIsWorking(status); }, py::arg("status"), doc("vpIsWorking"));
+  m.def(
+      "isWorking", [](const vpServoCommand &command) { return vpIsWorking(command.status); }, py::arg("command"),
+      "The same of its status.");
   bindLaw(m);
   bindController(m);
   bindOdometry(m);

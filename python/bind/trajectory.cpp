@@ -235,5 +235,11 @@ void bindTrajectory(py::module_ &m)
   m.def(
       "isWorking", [](vpTrajectoryResult result) { return vpIsWorking(result); }, py::arg("result"),
       doc("vpIsWorking"));
+  m.def(
+      "isWorking", [](const vpTrajectoryStatus &status) { return vpIsWorking(status.result); }, py::arg("status"),
+      "The same of its result.");
+  m.def(
+      "isWorking", [](const Output &output) { return vpIsWorking(output.status.result); }, py::arg("output"),
+      "The same of its status.");
 }
 } // namespace visp_python

@@ -26,6 +26,15 @@ def test_motion_of_the_readme():
     np.testing.assert_array_equal(names["output"].state.q, [0.5, 0.2, -0.1])
 
 
+def test_arm_of_the_readme(monkeypatch):
+    monkeypatch.chdir(pathlib.Path(__file__).parents[2])
+    names = {"np": np, "vd": vd}
+    exec(BLOCKS[2], names)
+    assert names["timed"].isFree() and names["output"].status == vd.AvoidanceStatus.Arrived
+    reached = vd.ArmKinematics(names["arm"], names["q"]).tool[:3, 3]
+    np.testing.assert_allclose(reached, vd.ArmKinematics(names["arm"], names["task"].goal).tool[:3, 3], atol=2e-3)
+
+
 def test_law_of_the_readme_in_the_comparison(tmp_path):
     program, plugin = BIN / "visp-servo-compare", pathlib.Path(core.__file__).parent / "laws.so"
     if os.environ.get("VISP_DIRECT_RUNS_LAWS") != "1" and not (program.is_file() and plugin.is_file()):
