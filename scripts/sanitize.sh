@@ -28,7 +28,7 @@ build() {
 run() {
   preset=$1
   shift
-  ctest --preset "$preset" -R "^($(echo "$@" | tr ' ' '|'))\$" --no-tests=error
+  ctest --preset "$preset" --parallel "$jobs" -R "^($(echo "$@" | tr ' ' '|'))\$" --no-tests=error
 }
 tests_of() {
   for module; do

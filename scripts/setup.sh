@@ -93,7 +93,7 @@ build_tree() {
   local options=()
   ! command -v ccache >/dev/null || options=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   cd "$root" || exit 1 # presets are searched in the current folder
-  run configure.log "Configuring" cmake --preset release ${options[@]+"${options[@]}"}
+  run configure.log "Configuring" cmake --preset release -DVISP_DIRECT_BUILD_APPS=ON ${options[@]+"${options[@]}"}
   run build.log "Building, $(job_count) at a time (minutes the first time)" \
     cmake --build --preset release --parallel "$(job_count)" --target "$@"
 }
