@@ -91,8 +91,7 @@ void answer(const std::string &text, const std::string &name, std::size_t line, 
   nlohmann::ordered_json id;
   std::string reply;
   try {
-    const Problem problem = readProblem(text, name + ":" + std::to_string(line), line);
-    id = problem.id;
+    const Problem problem = readProblem(text, name + ":" + std::to_string(line), line, &id);
     const Motion motion = execute(problem);
     reply = answerLine(problem, motion);
     if (planned != nullptr) {

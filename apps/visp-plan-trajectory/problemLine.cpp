@@ -233,7 +233,7 @@ int axisCount(JsonObject &object)
 }
 } // namespace
 
-Problem readProblem(const std::string &text, const std::string &place, std::size_t line)
+Problem readProblem(const std::string &text, const std::string &place, std::size_t line, nlohmann::ordered_json *id)
 {
   const json parsed = vpApp::parseJsonLine(text, place);
   JsonObject object(parsed, place);
@@ -241,6 +241,9 @@ Problem readProblem(const std::string &text, const std::string &place, std::size
   problem.place = place;
   problem.line = line;
   problem.id = object.has("id") ? nlohmann::ordered_json(parsed["id"]) : nlohmann::ordered_json();
+  if (id != nullptr) {
+    *id = problem.id;
+  }
   static_cast<void>(object.has("comment"));
   problem.input = Input(axisCount(object));
   problem.input.maxVelocity.setConstant(infinity);

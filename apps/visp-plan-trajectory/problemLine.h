@@ -42,10 +42,12 @@ struct Problem {
 /*!
  * Read one line.
  * \param text : The line, a JSON object. \param place : Prefix of every message. \param line : Number of the line.
+ * \param id : Not null: gets the id, also where the rest is refused.
  * \throw std::runtime_error: one sentence with the location, the field with its axis, and the value. Whether the
  * numbers are valid for a motion is checked by vpDirectTrajectory.
  */
-[[nodiscard]] Problem readProblem(const std::string &text, const std::string &place, std::size_t line);
+[[nodiscard]] Problem readProblem(const std::string &text, const std::string &place, std::size_t line,
+                                  nlohmann::ordered_json *id = nullptr);
 } // namespace planTrajectory
 
 #endif

@@ -53,10 +53,11 @@ TEST_CASE("Without a file it is figure 6.3", "[visp-plan-trajectory]")
 TEST_CASE("A bad line does not stop the others", "[visp-plan-trajectory]")
 {
   ProgramRun run(PLAN_TRAJECTORY);
-  run.write("p.jsonl", GOOD + "\nnonsense\n\n" + R"({"id": 7, "q1": [1, 2], "v_max": [1, 0]})" + "\n" + GOOD);
+  run.write("p.jsonl", GOOD + "\nnonsense\n\n" + R"({"id": 7, "q1": [1, 2], "v_max": [1, 0]})" + "\n" + GOOD + "\n" +
+                           R"({"id": 8, "q1": "a"})");
   CHECK(run("p.jsonl --csv c.csv --out r", "VISP_DIRECT_PYTHON=none") == DATA);
   const std::vector<json> list = answers(run.out());
-  REQUIRE(list.size() == 4);
+  REQUIRE(list.size() == 5);
   CHECK(list[0]["status"] == "Finished");
   CHECK(list[1]["status"] == "InvalidInput");
   CHECK(list[1]["line"] == 2);
@@ -64,17 +65,18 @@ TEST_CASE("A bad line does not stop the others", "[visp-plan-trajectory]")
   CHECK(list[2]["id"] == 7);
   CHECK(list[3]["status"] == "Finished");
   CHECK(list[3]["duration"] == list[0]["duration"]);
+  CHECK(list[4]["id"] == 8);
   const std::string place = run.path("r").string();
   CHECK(run.err().find("The data is in " + place +
                        ", without a report, which needs Python: none was not found; make it later by: "
                        "python3 -m visp_direct.report " +
-                       place + "\nvisp-plan-trajectory: 2 of 4 problems were refused, the first: p.jsonl:2: ") == 0);
+                       place + "\nvisp-plan-trajectory: 3 of 5 problems were refused, the first: p.jsonl:2: ") == 0);
   std::vector<std::string> names = run.entries();
   std::sort(names.begin(), names.end());
   CHECK(names == std::vector<std::string>{"c-1.csv", "c-5.csv", "p.jsonl", "r"});
   const json summary = json::parse(vpApp::readFile(run.path("r/summary.json")));
-  CHECK(summary.at("problems") == 4);
-  CHECK(summary.at("refused") == 2);
+  CHECK(summary.at("problems") == 5);
+  CHECK(summary.at("refused") == 3);
   CHECK(summary.at("files") == json({"motions.json", "summary.json"}));
 }
 
