@@ -96,6 +96,7 @@ PYBIND11_MODULE(_core, m)
   using namespace visp_python;
   m.doc() = "The compiled part of visp_direct.";
   py::register_exception_translator(&translate);
+  m.attr("__version__") = VISP_DIRECT_VERSION;
   bindTrajectory(m);
   bindVision(m);
   bindServo(m);

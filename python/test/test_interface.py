@@ -73,6 +73,11 @@ def calls(tmp_path_factory):
     return json.loads(written.read_text())
 
 
+def test_version():
+    found = re.search(r"project\([^)]*VERSION ([0-9.]+)", (HERE.parents[1] / "CMakeLists.txt").read_text(), re.S)
+    assert vd.__version__ == found[1]
+
+
 def test_every_function_is_called_by_a_test(calls):
     """Every constructor, too, except those of structs, which test_fields_are_set_by_keyword_and_shown() calls."""
     functions = {name for name, thing in public() if (callable(thing) or isinstance(thing, staticmethod)) and not inspect.isclass(thing)}

@@ -10,6 +10,7 @@ structs are given by keyword: PoseTrajectorySpec(linearVelocity=0.1). Errors are
 """
 try:
     from ._core import *  # noqa: F401,F403
+    from ._core import __version__  # noqa: F401
     from .viewer import show  # noqa: F401
 except ImportError as error:
     _missing = error
