@@ -219,7 +219,7 @@ vpDotLattice latticeOf(const vpImage<unsigned char> &image, Candidate best)
   for (std::size_t i = 0; i < best.found.spots.size(); ++i) {
     const vpLatticeSpot &spot = best.spots[best.found.spots[i]];
     vpPatternSpot edges = spot.box;
-    const bool good = vpHalfMaximumCentre(image, spot.level, edges);
+    const bool good = vpHalfMaximumCentre(image, {spot.level, 0., 0.}, edges);
     lattice.dots.push_back(
         {good ? edges.x : spot.x, good ? edges.y : spot.y, best.found.columns[i], best.found.rows[i]});
   }

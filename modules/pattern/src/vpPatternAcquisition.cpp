@@ -76,7 +76,7 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
       break;
     case vpPatternMethod::GaussNewton:
     case vpPatternMethod::HalfMaximumEdges:
-      good = vpHalfMaximumCentre(image, half, spot);
+      good = vpHalfMaximumCentre(image, m_light.level(half), spot);
       break;
     }
     // A centre outside its box is a diverged parabola of Algorithm 7.4.
@@ -94,6 +94,15 @@ vpPatternReason vpPatternTracker::Impl::detectPolarity(const vpImage<unsigned ch
   }
   if (!m_fitter.fit(spots, m_spec.minPitch, lattice)) {
     return m_fitter.trouble(spots);
+  }
+  const bool usesLevel =
+      m_spec.method == vpPatternMethod::GaussNewton || m_spec.method == vpPatternMethod::HalfMaximumEdges;
+  const bool first = !m_light.isKnown();
+  if (usesLevel && m_light.see(image, spots, lattice) && first) { // the centres of this image do not know it yet
+    for (vpPatternSpot &spot : spots) {
+      vpPatternSpot again = spot;
+      spot = vpHalfMaximumCentre(image, m_light.level(half), again) ? again : spot;
+    }
   }
   vpLatticeFit::removeDirty(spots);
   return vpPatternReason::None;

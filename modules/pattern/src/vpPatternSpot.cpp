@@ -77,9 +77,9 @@ struct View {
 double crossing(double a, double b) { return a * b > 0. || a == b ? NAN : a / (a - b); }
 
 // Mean of the midpoints between both edges over the middle three quarters of the lines. \e along and \e across are the
-// memory steps; the box does not touch the border of the image.
+// memory steps, \e level is in these directions; the box does not touch the border of the image.
 double middle(const unsigned char *pixels, std::ptrdiff_t along, std::ptrdiff_t across, int low, int high,
-              int firstLine, int lastLine, double level)
+              int firstLine, int lastLine, const vpEdgeLevel &level)
 {
   const int skip = (lastLine - firstLine + 1) / 8, step = std::max(1, (lastLine - firstLine + 1) / 16);
   const int most = std::min(3, high - low + 2);
@@ -87,7 +87,8 @@ double middle(const unsigned char *pixels, std::ptrdiff_t along, std::ptrdiff_t 
   int count = 0;
   for (int line = firstLine + skip; line <= lastLine - skip; line += step) {
     const unsigned char *from = pixels + line * across;
-    const auto value = [&](int position) { return from[position * along] - level; };
+    const double levelOfLine = level.value + level.slopeY * line;
+    const auto value = [&](int position) { return from[position * along] - (levelOfLine + level.slopeX * position); };
     // The box may be a pixel wider than this line, at rounded corners or when the cell is turned.
     double edges[2] = {NAN, NAN};
     for (int k = 0; k < most && std::isnan(edges[0]); ++k) {
@@ -285,11 +286,12 @@ bool vpRunLabels::find(const vpImage<unsigned char> &image, int threshold, bool 
   return true;
 }
 
-bool vpHalfMaximumCentre(const vpImage<unsigned char> &image, double level, vpPatternSpot &spot)
+bool vpHalfMaximumCentre(const vpImage<unsigned char> &image, const vpEdgeLevel &level, vpPatternSpot &spot)
 {
   const std::ptrdiff_t row = image.getWidth();
   spot.x = middle(image.bitmap, 1, row, spot.left, spot.right, spot.top, spot.bottom, level);
-  spot.y = middle(image.bitmap, row, 1, spot.top, spot.bottom, spot.left, spot.right, level);
+  spot.y = middle(image.bitmap, row, 1, spot.top, spot.bottom, spot.left, spot.right,
+                  {level.value, level.slopeY, level.slopeX});
   return std::isfinite(spot.x) && std::isfinite(spot.y);
 }
 

@@ -52,8 +52,13 @@ private:
   std::vector<vpPatternSpot> m_spots;
 };
 
+//! A grey value that changes linearly over the image: value + slopeX * x + slopeY * y.
+struct vpEdgeLevel {
+  double value = 0., slopeX = 0., slopeY = 0.;
+};
+
 //! Crossings of the grey value with \e level on all four sides. False when a side has no crossing.
-bool vpHalfMaximumCentre(const vpImage<unsigned char> &image, double level, vpPatternSpot &spot);
+bool vpHalfMaximumCentre(const vpImage<unsigned char> &image, const vpEdgeLevel &level, vpPatternSpot &spot);
 //! Algorithm 7.4 as printed: (7.12) with the width of the box, parabola (7.14), crossing of the diagonals (7.17).
 bool vpThesisCentre(const vpImage<unsigned char> &image, vpPatternDerivative derivative, vpPatternSpot &spot);
 //! Algorithm 7.4 with w - 1 for w in (7.12), a guarded parabola, and the left and right edges measured too.

@@ -114,7 +114,7 @@ bool vpCellMemory::deviation(int row, int column, double &x, double &y)
 vpPatternTracker::Impl::Impl(unsigned int width, unsigned int height, const vpPatternTrackerSpec &spec)
   : m_spec(checkedOptions(spec)), m_width(checkedSize("width", width)), m_height(checkedSize("height", height)),
     m_maxCells(roomForCells(width, height, spec.minPitch)), m_labels(width, height, m_maxCells), m_fitter(m_maxCells),
-    m_learner(roomForPixels(width, height)), m_bank(roomForPixels(width, height)),
+    m_light(width, height, m_maxCells), m_learner(roomForPixels(width, height)), m_bank(roomForPixels(width, height)),
     m_nextBank(spec.refreshEvery > 0 ? roomForPixels(width, height) : 0), m_workers(spec.threads),
     m_memory(4 * m_maxCells + 64), m_meanX(m_maxCells), m_meanY(m_maxCells)
 {
@@ -142,6 +142,7 @@ void vpPatternTracker::Impl::reset()
   m_known = m_interrupted = false;
   m_bank.clear();
   m_memory.clear();
+  m_light.clear();
   m_lostFrames = m_learned = m_rotate = m_row = m_column = 0;
   m_vx = m_vy = m_noise = m_edgeVarianceX = m_edgeVarianceY = m_share = 0.;
   m_turn = {0., 0., 0., 0., 0., 0.};

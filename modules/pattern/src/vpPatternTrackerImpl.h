@@ -8,6 +8,7 @@
 
 #include "vpCellAligner.h"
 #include "vpLatticeFit.h"
+#include "vpLightSlope.h"
 #include "vpPatternSpot.h"
 #include "vpPatternWorkers.h"
 #include "vpRobustMean.h"
@@ -168,6 +169,7 @@ private:
   Stage m_stage = Stage::Searching;
   vpRunLabels m_labels;
   vpLatticeFit m_fitter;
+  vpLightSlope m_light; // for the edges
   vpTemplateLearner m_learner;
   vpTemplateBank m_bank, m_nextBank;
   vpPatternWorkers m_workers;

@@ -9,6 +9,7 @@
 #include "vpDotScene.h"
 
 #include <visp3/core/vpException.h>
+#include <visp3/core/vpMath.h>
 #include <visp3/pattern/vpPatternTracker.h>
 
 #include <map>
@@ -156,6 +157,62 @@ TEST_CASE("a slope of the illumination moves no centre", "[pattern]")
   const Statistics s = run(pattern, tracker, rng, 250, 2.7, -0.3);
   CHECK(std::abs(s.meanX()) < 0.02);
   CHECK(std::abs(s.meanY()) < 0.02);
+}
+
+TEST_CASE("while it learns under uneven light, centres are as good as they say", "[pattern]")
+{
+  auto rng = vpTestSupport::generator(402);
+  CAPTURE(vpTestSupport::seed());
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
+  vpImage<unsigned char> image;
+  for (int problem = 0; problem < vpTestSupport::longer(12); ++problem) {
+    Pattern pattern;
+    pattern.width = 320;
+    pattern.height = 240;
+    pattern.pitchX = between(24., 50.);
+    pattern.pitchY = between(18., 30.);
+    pattern.cellX = between(0.55, 0.75) * pattern.pitchX;
+    pattern.cellY = between(0.55, 0.7) * pattern.pitchY;
+    pattern.slope = between(-0.4, 0.4);
+    pattern.slopeY = between(-0.25, 0.25);
+    pattern.bright = between(130., 150.);
+    pattern.rotation = vpMath::rad(between(-3., 3.));
+    const double vx = between(-4., 4.), vy = between(-1., 1.);
+    vpPatternTracker tracker(pattern.width, pattern.height);
+    double xx = 0., yy = 0., sx = 0., sy = 0.;
+    int count = 0, images = 0;
+    for (int k = 0; k < 50; ++k) {
+      pattern.x += vx;
+      pattern.y += vy;
+      pattern.render(rng, image);
+      const vpPatternFrame &frame = tracker.process(image);
+      if (frame.status != vpPatternStatus::Acquiring) {
+        continue;
+      }
+      ++images;
+      for (const vpPatternCell &cell : frame.cells) {
+        if (!cell.valid || !std::isfinite(cell.sigmaX)) {
+          continue;
+        }
+        const double du = cell.x - pattern.x, dv = cell.y - pattern.y;
+        const double c = std::cos(pattern.rotation), s = std::sin(pattern.rotation);
+        const int column = static_cast<int>(std::lround((c * du + s * dv) / pattern.pitchX));
+        const int row = static_cast<int>(std::lround((-s * du + c * dv) / pattern.pitchY));
+        const double ex = (cell.x - pattern.centreX(row, column)) / cell.sigmaX;
+        const double ey = (cell.y - pattern.centreY(row, column)) / cell.sigmaY;
+        xx += ex * ex;
+        yy += ey * ey;
+        sx += cell.sigmaX;
+        sy += cell.sigmaY;
+        ++count;
+      }
+    }
+    CAPTURE(problem, pattern.pitchX, pattern.pitchY, pattern.cellX, pattern.cellY, pattern.slope, pattern.slopeY,
+            pattern.rotation, images, sx / count, sy / count);
+    REQUIRE(count > 300);
+    CHECK(std::sqrt(xx / count) == Approx(1.1).margin(0.4));
+    CHECK(std::sqrt(yy / count) == Approx(1.1).margin(0.4));
+  }
 }
 
 TEST_CASE("cells keep their row and column over a long way, forth and back", "[pattern]")

@@ -21,8 +21,8 @@ VISP_DIRECT_USING_NAMESPACE
 struct Pattern {
   unsigned int width = 160, height = 100;
   double pitchX = 48.9, pitchY = 17.8, cellX = 39.6, cellY = 11.6, blur = 0.85;
-  double dark = 60., bright = 170., noise = 4.,
-         slope = 0.;       // slope: share by which the light falls off across the image
+  double dark = 60., bright = 170., noise = 4., slope = 0.,
+         slopeY = 0.;      // shares by which the light falls off to each side across the image
   double jitter = 0.;      // px, fixed for each cell
   double x = 20., y = 12.; // centre of cell (0, 0)
   double rotation = 0.;    // rad, about that centre; of the images only
@@ -36,10 +36,22 @@ struct Pattern {
   double cellPositionX(int row, int column) const { return x + column * pitchX + deviation(row, column, 0); }
   double cellPositionY(int row, int column) const { return y + row * pitchY + deviation(row, column, 1); }
 
+  // Its centre in the image.
+  double centreX(int row, int column) const
+  {
+    const double du = cellPositionX(row, column) - x, dv = cellPositionY(row, column) - y;
+    return x + std::cos(rotation) * du - std::sin(rotation) * dv;
+  }
+  double centreY(int row, int column) const
+  {
+    const double du = cellPositionX(row, column) - x, dv = cellPositionY(row, column) - y;
+    return y + std::sin(rotation) * du + std::cos(rotation) * dv;
+  }
+
   double edge(double u) const { return 0.5 * std::erf(u / (std::sqrt(2.) * blur)); }
   double value(double u, double v) const
   {
-    const double lightAt = u;
+    const double light = 1. + slope * (u / (width - 1.) - 0.5) * 2. + slopeY * (v / (height - 1.) - 0.5) * 2.;
     if (rotation != 0.) {
       const double du = u - x, dv = v - y;
       u = x + std::cos(rotation) * du + std::sin(rotation) * dv;
@@ -50,7 +62,6 @@ struct Pattern {
     const double du = u - cellPositionX(row, column), dv = v - cellPositionY(row, column);
     const double inside =
         (edge(du + 0.5 * cellX) - edge(du - 0.5 * cellX)) * (edge(dv + 0.5 * cellY) - edge(dv - 0.5 * cellY));
-    const double light = 1. + slope * (lightAt / (width - 1.) - 0.5) * 2.;
     return (dark + (bright - dark) * inside) * light;
   }
   double sigma(double value) const { return noise * std::sqrt(0.36 + value / 157.); }
