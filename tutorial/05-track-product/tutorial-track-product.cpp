@@ -1,6 +1,6 @@
 /*! \example tutorial-track-product.cpp
  * Track a repetitive product: its cells and its motion. Rendered images, with dirt, are compared with the ground truth.
- * Usage: tutorial-track-product [IMAGES], a sequence or a video for vpVideoReader, such as frames/%06d.png
+ * Usage: tutorial-track-product [IMAGES], a sequence of 8 bits or a video for vpVideoReader, such as frames/%06d.png
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <visp3/core/vpFont.h>
@@ -9,7 +9,6 @@
 #include <visp3/io/vpVideoReader.h>
 #include <visp3/pattern/vpPatternTracker.h>
 #include <visp3/rendering/vpProductPattern.h>
-
 #include <cmath>
 #include <iostream>
 
@@ -65,20 +64,21 @@ int main(int argc, char **argv)
     //! [Track]
     vpPatternTracker tracker(image.getWidth(), image.getHeight()); // learns lattice and template from the images
     double moved = 0., truth = 0.;                                 // px
-    int tracked = 0;
+    int tracked = 0, otherSize = 0;
     for (unsigned int i = 0; argc > 1 ? !reader.end() : i < 300; ++i) {
       truth = 5. * i + 10. * std::sin(0.1 * i);
       argc > 1 ? reader.acquire(image) : product.render(truth, 0., 5. + std::cos(0.1 * i), 0., i, image);
       const vpPatternFrame &frame = tracker.process(image);
       moved += frame.hasMotion ? frame.dx : 0.; // since the previous image
       tracked += frame.status == vpPatternStatus::Tracking ? 1 : 0;
+      otherSize += frame.reason == vpPatternReason::WrongSize ? 1 : 0;
     }
     //! [Track]
     const vpPatternFrame &last = tracker.frame();
     drawCells(image, last, "tutorial-track-product.png");
     std::cout << "Pitch " << last.lattice.columnPitch() << " x " << last.lattice.rowPitch() << " px, " << tracked
               << " of " << last.index + 1 << " images tracked, moved by " << moved << " px. " << last.message()
-              << std::endl;
+              << (otherSize > 0 ? " Left out: " + std::to_string(otherSize) + " of another size." : "") << std::endl;
     if (argc > 1) {
       return tracked > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
     }
@@ -93,8 +93,8 @@ int main(int argc, char **argv)
     std::cout << "Truly moved by " << truth << " px; worst cell in the last image " << worst << " px off" << std::endl;
     return tracked > 200 && std::fabs(moved - truth) < 1. && worst < 0.2 ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  catch (const vpException &e) {
-    std::cerr << "tutorial-track-product: " << e.getStringMessage() << std::endl;
+  catch (const std::exception &e) {
+    std::cerr << "tutorial-track-product: " << (argc > 1 ? argv[1] : "") << " as %d.png or video: " << e.what() << "\n";
   }
   return EXIT_FAILURE;
 }

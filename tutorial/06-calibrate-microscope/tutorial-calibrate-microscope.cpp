@@ -35,11 +35,10 @@ vpImage<unsigned char> throughTheLens()
   for (unsigned int i = 0; i < image.getSize(); ++i) {
     const unsigned int row = i / 640, column = i % 640;
     double sum = 0.;
-    for (const double dv : {-1. / 3., 0., 1. / 3.}) {
-      for (const double du : {-1. / 3., 0., 1. / 3.}) {
-        const double u = column - 319.5 + du, v = row - 239.5 + dv, factor = 3. * (1. + kappa1 * (u * u + v * v));
-        sum += straight.getValue(767.5 + factor * v, 1007.5 + factor * u);
-      }
+    for (int k = 0; k < 9; ++k) {
+      const double u = column - 319.5 + (k % 3 - 1) / 3., v = row - 239.5 + (k / 3 - 1) / 3.;
+      const double factor = 3. * (1. + kappa1 * (u * u + v * v));
+      sum += straight.getValue(767.5 + factor * v, 1007.5 + factor * u);
     }
     image.bitmap[i] = static_cast<unsigned char>(vpMath::round(sum / 9.));
   }
@@ -55,7 +54,6 @@ vpMicroscopeCalibrationResult calibrate(const vpImage<unsigned char> &image, con
   return microscope.compute();
 }
 //! [Calibrate]
-
 void draw(const vpImage<unsigned char> &image, const vpCalibrationPitch &pitch, const vpMicroscopeCalibration &found)
 {
   vpImage<vpRGBa> picture;
@@ -76,6 +74,9 @@ void draw(const vpImage<unsigned char> &image, const vpCalibrationPitch &pitch, 
 int main(int argc, char **argv)
 {
   try {
+    if (argc != 1 && argc != 4) {
+      throw vpException(vpException::badValue, "needs no arguments, or IMAGE PITCH_X_UM PITCH_Y_UM");
+    }
     vpImage<unsigned char> image = throughTheLens(), middle;
     vpCalibrationPitch pitch{112.5e-6, 112.5e-6, 0.}; // m, columns and rows
     if (argc == 4) {
@@ -90,8 +91,7 @@ int main(int argc, char **argv)
     std::cout << "160 x 100 px of it. " << part.message << std::endl;
     const bool isRight = std::fabs(whole.calibration.scaleX / scale - 1.) < 1e-4 &&
                          std::fabs(whole.calibration.kappa1 / kappa1 - 1.) < 0.02;
-    const bool isCareful = part.kappa1Status == vpKappa1Status::Unobservable;
-    return argc == 4 || (isRight && isCareful) ? EXIT_SUCCESS : EXIT_FAILURE;
+    return argc == 4 || (isRight && part.kappa1Status == vpKappa1Status::Unobservable) ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   catch (const vpException &e) {
     std::cerr << "tutorial-calibrate-microscope: " << e.getStringMessage() << std::endl;

@@ -34,7 +34,7 @@ const char *vpPatternFrame::message() const
   case vpPatternReason::TooMuchNoise:
     return "No lock: there are more spots than a pattern can have.";
   case vpPatternReason::NoLattice:
-    return "No lock: there are not two periods of a lattice each way in view.";
+    return "No lock: there are not two periods of a rectangular lattice, with one cell a period, each way in view.";
   case vpPatternReason::SingleRow:
     return "No lock: the cells are on a single row, two periods each way are needed.";
   case vpPatternReason::TurnedTooFar:

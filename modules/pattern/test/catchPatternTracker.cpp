@@ -504,4 +504,6 @@ TEST_CASE("a lattice that cannot be tracked is named: a single row, rows turned 
   CHECK(std::string(frame.message()).find("single row") != std::string::npos);
   frame.reason = vpPatternReason::TurnedTooFar;
   CHECK(std::string(frame.message()).find("more than 30 degrees") != std::string::npos);
+  frame.reason = vpPatternReason::NoLattice; // of hexagonal dots, too
+  CHECK(std::string(frame.message()).find("rectangular lattice, with one cell a period") != std::string::npos);
 }
