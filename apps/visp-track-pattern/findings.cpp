@@ -61,6 +61,35 @@ std::size_t epochsOf(const RunResults &results)
   return last;
 }
 
+//! Mean and sum of the displacements. Errors of successive ones cancel where the same cells are seen, so that the standard deviation of
+//! independent ones is a bound of that of the sum.
+std::string motionSentence(const RunResults &results)
+{
+  double sumX = 0., sumY = 0., squaresX = 0., squaresY = 0.;
+  std::size_t n = 0;
+  for (const FrameRecord &frame : results.frames) {
+    if (std::isfinite(frame.dx) && std::isfinite(frame.dy)) {
+      sumX += frame.dx;
+      sumY += frame.dy;
+      squaresX += frame.sigmaDx * frame.sigmaDx;
+      squaresY += frame.sigmaDy * frame.sigmaDy;
+      ++n;
+    }
+  }
+  if (n == 0) {
+    return "";
+  }
+  const double count = static_cast<double>(n);
+  std::string line = text("It moved by %+.3f px in x and %+.3f px in y from image to image (mean of %zu), by %+.2f and "
+                          "%+.2f px in all (standard deviations of at most %.2g and %.2g px).",
+                          sumX / count, sumY / count, n, sumX, sumY, std::sqrt(squaresX), std::sqrt(squaresY));
+  const std::size_t unknown = results.frames.size() - 1 - n;
+  if (unknown > 0) {
+    line += text(" Of %zu more image%s it is not known.", unknown, plural(unknown));
+  }
+  return line;
+}
+
 std::string truthSentence(const RunResults &results)
 {
   const TruthErrors &e = results.tracking.x.n > 0 ? results.tracking : results.acquiring;
@@ -135,6 +164,9 @@ std::vector<std::string> findings(const RunResults &results)
     lines.push_back(text("Its lattice has %.3f px from column to column and %.3f px from row to row, and is turned by "
                          "%+.2f degrees.",
                          lattice.columnPitch(), lattice.rowPitch(), vpMath::deg(lattice.angle())));
+    if (!motionSentence(results).empty()) {
+      lines.push_back(motionSentence(results));
+    }
   }
   const double sigmaX = quantile(column(results, &FrameRecord::sigmaX), 0.5);
   const double sigmaDx = quantile(column(results, &FrameRecord::sigmaDx), 0.5);

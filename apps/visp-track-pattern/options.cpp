@@ -23,7 +23,10 @@ constexpr const char *ABOUT =
     R"(Find the cells of a repetitive product (openings of a display, dots of a grid, pads of a wafer) in every image, to
 hundredths of a pixel, and say how far the product moved since the image before. Nothing needs to be known of the
 product: its lattice and its appearance are learned from the first images (some 60 of a product that moves). The images must
-show at least two cells each way. Colour is converted to grey; 16 bits per value are scaled to 8 by the range that they use;
+show at least two cells each way, on a rectangular lattice with one cell a period (a hexagonal grid is for --calibrate
+--dot-grid only). From image to image the product must move by less than half a pitch: more is taken for less, and a
+multiple of the pitch cannot be seen. Record without loss, as PNG or FFV1: what H.264 does to the images is not in the
+standard deviations. Colour is converted to grey; 16 bits per value are scaled to 8 by the range that they use;
 JPEG and TIFF images are rotated by their orientation tag; every page of a TIFF is an image.
 
 INPUT is a folder, image files, a pattern such as img%04d.png, a video file, or /dev/video0. Where the numbers in the names

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import longer, rotation
 from visp_direct.report import data, runs, view3d
-from visp_direct.report.track_pattern import deviation_map, round_below
+from visp_direct.report.track_pattern import deviation_map, motion_figure, round_below
 
 
 def area(polygon):
@@ -131,3 +131,10 @@ def test_schema_of_several_and_optional_files(tmp_path, monkeypatch):
     (tmp_path / "more.json").write_text(json.dumps({"x": "1"}))
     with pytest.raises(data.DataError, match='more.json.x is "1", must be number'):
         result.json("more.json")
+
+
+def test_only_a_known_truth_is_in_the_legend():
+    motion = {"frame": [0.0, 1.0, 2.0], "dx": [np.nan, 1.0, 1.1], "dy": [np.nan, 0.1, 0.0]}
+    for truth in (np.nan, 1.0):
+        svg = motion_figure({**motion, "true_dx": [np.nan, truth, truth], "true_dy": [np.nan, truth, truth]}).named("m", "motion").svg()
+        assert ("true, x" in svg, "found, y" in svg) == (not np.isnan(truth), True)

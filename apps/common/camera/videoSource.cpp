@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -50,6 +51,28 @@ unsigned int bitsOf(double pixelFormat)
   return 8;
 }
 
+// Name of a codec that predicts an image from others and leaves out what it takes for noise; empty: none of these.
+std::string predictingCodec(double fourcc)
+{
+  struct Codec {
+    const char *letters, *name;
+  };
+  static constexpr Codec codecs[] = {{"avc", "h264"},   {"264", "h264"},   {"hev", "hevc"},   {"hvc", "hevc"},
+                                     {"265", "hevc"},   {"mp4v", "mpeg4"}, {"fmp4", "mpeg4"}, {"xvid", "mpeg4"},
+                                     {"divx", "mpeg4"}, {"vp8", "vp8"},    {"vp08", "vp8"},   {"vp9", "vp9"},
+                                     {"vp09", "vp9"},   {"av01", "av1"},   {"mpg", "mpeg"}};
+  const std::array<char, 4> code = lettersOf(fourcc);
+  std::string letters(code.begin(), code.end());
+  std::transform(letters.begin(), letters.end(), letters.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Codec &codec : codecs) {
+    if (letters.find(codec.letters) != std::string::npos) {
+      return codec.name;
+    }
+  }
+  return "";
+}
+
 // Without this OpenCV gives the upper 8 bits.
 void askForAllBits(cv::VideoCapture &camera)
 {
@@ -70,6 +93,7 @@ VideoSource::VideoSource(std::unique_ptr<cv::VideoCapture> capture, std::string 
   const double promised = m_capture->get(cv::CAP_PROP_FRAME_COUNT);
   m_promised = promised > 0. && promised < 1e9 ? static_cast<std::size_t>(promised) : 0;
   m_bits = bitsOf(m_capture->get(cv::CAP_PROP_CODEC_PIXEL_FORMAT));
+  m_codec = predictingCodec(m_capture->get(cv::CAP_PROP_FOURCC));
 }
 
 bool VideoSource::grab()
@@ -140,6 +164,10 @@ std::vector<std::string> VideoSource::remarks() const
         " bits a value; its largest possible value became the grey "
         "value 255. If it uses a small part of that range, store its images as PNG or TIFF, of which all bits "
         "are read.");
+  }
+  if (!m_codec.empty()) {
+    all.push_back(m_name + " is compressed between images (" + m_codec +
+                  "): deviations do not include the errors of compression. Record without loss, as PNG or FFV1.");
   }
   if (m_short) {
     all.push_back("The video promises " + std::to_string(m_promised) + " images, only " + std::to_string(m_read) +

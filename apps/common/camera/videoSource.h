@@ -26,7 +26,7 @@ namespace vpApp
  *
  * A camera may fail to give an image twice in a row: the next one comes after a gap. Images dropped inside a camera
  * are not detected. V4L2 gives the time of capture by the clock of now(); where a driver gives another time, it is the time of
- * arrival. For videos with more than 8 bits OpenCV gives the upper 8 bits; for a camera all bits are read.
+ * arrival. A lossy codec between images (H.264) is a remark: it removes noise, from which deviations are estimated. For videos with more than 8 bits OpenCV gives the upper 8 bits; for a camera all bits are read.
  */
 class VideoSource : public ImageSource
 {
@@ -62,6 +62,7 @@ private:
   std::size_t m_frames;
   std::size_t m_promised = 0; // number of images stated by the file; 0: none
   unsigned int m_bits = 8;    // bits per value in the file
+  std::string m_codec;        // of a file, if it predicts images from others with loss
   std::size_t m_read = 0, m_failed = 0;
   bool m_afterGap = false, m_short = false, m_stamped = true;
   double m_time = 0.;

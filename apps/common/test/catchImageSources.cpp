@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 
 namespace
 {
@@ -224,6 +225,21 @@ TEST_CASE("a camera with more than 8 bits is asked for all of them", "[sources][
     CHECK(contentOf(source) == "255@0 128@1 ");
     CHECK(joined(source.remarks()) ==
           "The images have 16 bits a value; the values 0 to 4095 became the grey values 0 to 255.\n");
+  }
+}
+
+TEST_CASE("a video that is compressed between its images says so", "[sources]")
+{
+  const std::map<std::string, std::string> codecs = {
+      {"avc1", "h264"}, {"h264", "h264"}, {"X264", "h264"}, {"hev1", "hevc"}, {"FMP4", "mpeg4"}, {"XVID", "mpeg4"},
+      {"VP90", "vp9"},  {"FFV1", ""},     {"MJPG", ""},     {"png ", ""},     {"YUYV", ""}};
+  for (const auto &[code, name] : codecs) {
+    CAPTURE(code);
+    const VideoSource source(std::make_unique<ScriptedCapture>(std::deque<cv::Mat>(), code), "film.mp4", false, 0);
+    const std::string sentence = "film.mp4 is compressed between images (" + name +
+                                 "): deviations do not include the errors of compression. Record without loss, as PNG "
+                                 "or FFV1.\n";
+    CHECK(joined(source.remarks()) == (name.empty() ? "" : sentence));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 using namespace trackPatternRun;
@@ -43,6 +44,23 @@ TEST_CASE("Without input it tracks its own sequence and says how far it is from 
               "sigma_y,true_dx,true_dy"));
   REQUIRE(motion.lines.size() == 130);
   CHECK(motion.lines[0].at("dx") == "nan");
+  double sum = 0., truth = 0.;
+  for (std::size_t i = 1; i < motion.lines.size(); ++i) {
+    sum += number(motion.lines[i], "dx");
+    truth += number(motion.lines[i], "true_dx");
+  }
+  const std::size_t moved = run.out().find("\nIt moved by +");
+  REQUIRE(moved != std::string::npos);
+  double meanX = 0., meanY = 0., allX = 0., allY = 0., sigmaX = 0., sigmaY = 0.;
+  REQUIRE(std::sscanf(
+              run.out().c_str() + moved,
+              "\nIt moved by %lf px in x and %lf px in y from image to image (mean of 129), by %lf and %lf px in all "
+              "(standard deviations of at most %lf and %lf px).",
+              &meanX, &meanY, &allX, &allY, &sigmaX, &sigmaY) == 6);
+  CHECK(allX == Approx(sum).margin(0.01));
+  CHECK(meanX == Approx(sum / 129.).margin(0.001));
+  CHECK(std::abs(allX - truth) < 4. * sigmaX + 0.01);
+  CHECK(sigmaX > 0.);
   CHECK(motion.lines[129].at("status") == "Tracking");
   CHECK(number(motion.lines[129], "sigma") ==
         Approx(std::hypot(number(motion.lines[129], "sigma_dx"), number(motion.lines[129], "sigma_dy"))).margin(2e-5));
@@ -126,6 +144,7 @@ TEST_CASE("Videos and colour images are read", "[visp-track-pattern]")
   CHECK(summary["images"] == 80);
   CHECK(summary["images_by_status"]["lost"] == 0);
   CHECK(summary["lattice"]["column_pitch_px"].get<double>() == Approx(220. / 4.5).epsilon(0.01));
+  CHECK(run.out().find("d/video.mp4 is compressed between images (") != std::string::npos);
   std::filesystem::create_directory(run.path("colour"));
   for (int i = 0; i < 3; ++i) {
     cv::Mat grey = cv::imread(run.path("d/frames/" + imageName(i)).string(), cv::IMREAD_COLOR);

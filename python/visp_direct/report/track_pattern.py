@@ -37,7 +37,8 @@ def status_figure(axes, motion):
 def motion_figure(panels, motion):
     style = "-" if len(motion["frame"]) > MANY else "."
     for i, (axes, axis) in enumerate(zip(panels, "xy")):
-        axes.plot(motion["frame"], motion[f"true_d{axis}"], color="#9aa5b1", label=f"true, {axis}")
+        if np.isfinite(motion[f"true_d{axis}"]).any():
+            axes.plot(motion["frame"], motion[f"true_d{axis}"], color="#9aa5b1", label=f"true, {axis}")
         axes.plot(motion["frame"], motion[f"d{axis}"], style, color=colour(i), markersize=3, label=f"found, {axis}")
         legend_above(axes, ylabel=f"d{axis} (px)")
     panels[-1].set_xlabel("image")
@@ -158,7 +159,8 @@ def add_result(page, result):
         page.figure(
             motion_figure(motion).named(f"motion-{result.name}", "Displacement of every image"),
             "How far the product moved since the image before: x to the right, y down. A gap in the curve: not known, as where images are "
-            "missing.",
+            "missing. Between two images it must move by less than half a pitch: more looks like less, and a multiple of the pitch cannot "
+            "be seen.",
         )
         if "errors" in summary:
             page.figure(error_figure(motion).named(f"error-{result.name}", "Error of the displacement"), "The same, minus the truth.")
