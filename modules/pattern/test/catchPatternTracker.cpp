@@ -165,7 +165,7 @@ TEST_CASE("while it learns under uneven light, centres are as good as they say",
   CAPTURE(vpTestSupport::seed());
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
   vpImage<unsigned char> image;
-  for (int problem = 0; problem < vpTestSupport::longer(12); ++problem) {
+  for (int problem = 0; problem < vpTestSupport::longer(8); ++problem) {
     Pattern pattern;
     pattern.width = 320;
     pattern.height = 240;
@@ -181,7 +181,7 @@ TEST_CASE("while it learns under uneven light, centres are as good as they say",
     vpPatternTracker tracker(pattern.width, pattern.height);
     double xx = 0., yy = 0., sx = 0., sy = 0.;
     int count = 0, images = 0;
-    for (int k = 0; k < 50; ++k) {
+    for (int k = 0; k < 40; ++k) {
       pattern.x += vx;
       pattern.y += vy;
       pattern.render(rng, image);
