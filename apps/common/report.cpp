@@ -62,7 +62,8 @@ bool runPython(const std::string &folder, std::string &said)
 {
   std::string program = interpreter(), option = "-m", module = "visp_direct.report", out = folder;
   std::array<char *, 5> arguments = {program.data(), option.data(), module.data(), out.data(), nullptr};
-  std::vector<std::string> environment = {"PYTHONPATH=" + packageFolders(), "PYTHONDONTWRITEBYTECODE=1"};
+  std::vector<std::string> environment = {"PYTHONPATH=" + packageFolders(), "PYTHONDONTWRITEBYTECODE=1",
+                                          "PYTHONIOENCODING=utf-8"};
   for (char **entry = environ; *entry != nullptr; ++entry) {
     if (std::string(*entry).rfind("PYTHONPATH=", 0) != 0) {
       environment.emplace_back(*entry);
@@ -119,7 +120,8 @@ std::string reasonIn(std::string said, const std::string &folder, const std::str
 }
 } // namespace
 
-std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary, bool isKeptAfterCtrlC)
+std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary, bool isKeptAfterCtrlC,
+                             bool hasAnswer)
 {
   out.writeSummary(summary);
   const fs::path report = out.file("report.html");
@@ -136,6 +138,16 @@ std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &su
               << ", without a report, which needs Python: " << reasonIn(said, folder, out.path().string())
               << "; make it later by: python3 -m visp_direct.report " << out.path().string() << std::endl;
   }
-  return made ? "Report: " + (out.path() / "report.html").string() : "Data: " + out.path().string();
+  if (!made) {
+    return "Data: " + out.path().string();
+  }
+  const std::string heading = "Answer:\n";
+  const std::size_t begin = said.rfind(heading);
+  std::string answer;
+  if (hasAnswer && begin != std::string::npos) {
+    answer = said.substr(begin + heading.size());
+    answer.erase(answer.rfind('\n', answer.size() - 2) + 1); // the name of the file
+  }
+  return vpEscapeUnprintable(answer, "\n") + "Report: " + (out.path() / "report.html").string();
 }
 } // namespace vpApp

@@ -23,10 +23,12 @@ namespace vpApp
  * Where it or a package is missing the result is complete without report.html, and a sentence on the standard error says why.
  * \param summary : As for OutputFolder::writeSummary().
  * \param isKeptAfterCtrlC : The result counts although Ctrl-C ended the run.
- * \return For the user: "Report: OUT/report.html", or "Data: OUT".
+ * \param hasAnswer : The report has an answer of its own, which is none of the findings in \e summary.
+ * \return For the user: "Report: OUT/report.html", or "Data: OUT"; before it, if \e hasAnswer, that answer, a sentence on each line.
  * \throw std::runtime_error as OutputFolder::commit(); Interrupted after Ctrl-C, unless \e isKeptAfterCtrlC.
  */
-std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary, bool isKeptAfterCtrlC = false);
+std::string finishWithReport(OutputFolder &out, const nlohmann::ordered_json &summary, bool isKeptAfterCtrlC = false,
+                             bool hasAnswer = false);
 } // namespace vpApp
 
 #endif

@@ -51,10 +51,10 @@ void print(const Options &options, const std::string &commandLine)
   out.write("landing.csv", landingCsv(results.landing));
   const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string made = vpApp::finishWithReport(out, summaryOf(options, results, commandLine, wallTime));
-  std::cout << sumOf(results.runs, &vpPrintMetrics::printed) << " cells printed, "
-            << sumOf(results.runs, &vpPrintMetrics::missed) << " missed, "
-            << sumOf(results.runs, &vpPrintMetrics::doubled) << " doubled\n"
-            << made << std::endl;
+  for (const std::string &line : findings(results)) {
+    std::cout << line << "\n";
+  }
+  std::cout << made << std::endl;
 }
 } // namespace
 

@@ -6,6 +6,7 @@
 
 #include "appMain.h"
 #include "commandLine.h"
+#include "numberText.h"
 
 #include <visp3/core/vpException.h>
 
@@ -86,7 +87,8 @@ void addMotion(vpApp::CommandLine &line, Choices &choices, vpPrintExperimentSpec
                {"constant", vpPrintReferenceMode::ConstantVelocity}},
               "centres: drop velocity at the centres and faster between; arrival: a fixed time from cell to cell; "
               "limited: as fast as a limit allows; constant: drop velocity all the way");
-  line.number("--drop-velocity", spec.dropVelocity, POSITIVE, "PX/FRAME", "Velocity at the centres");
+  line.number("--drop-velocity", spec.dropVelocity, POSITIVE, "PX/FRAME",
+              "Velocity at the centres, below half a pitch");
   line.number("--mean-velocity", spec.reference.meanVelocity, POSITIVE, "PX/FRAME", "Mean velocity, for centres");
   line.number("--drop-time", spec.reference.dropTime, POSITIVE, "FRAMES", "Time from cell to cell, for arrival");
   line.number("--max-velocity", spec.reference.maxVelocity, POSITIVE, "PX/FRAME", "Limit of the velocity, for limited");
@@ -121,6 +123,27 @@ void checkExploration(const vpApp::CommandLine &line, Options &options)
     }
   }
   options.out = line.isGiven("--out") ? options.out : "out/print-explore";
+}
+
+//! Beyond it the camera takes a motion for another one. The fastest velocity of which it is known in advance that it will be reached.
+void checkVelocity(const vpPrintExperimentSpec &spec)
+{
+  const double limit = 0.5 * spec.product.pitchX;
+  const auto check = [limit](const char *name, double velocity) {
+    if (!(velocity < limit)) {
+      throw vpApp::UsageError(
+          std::string(name) + " is " + vpApp::number(velocity, 6) + " px/frame, must be below " +
+          vpApp::number(limit, 3) +
+          ", half the pitch of the cells: from image to image a larger motion looks like a smaller one");
+    }
+  };
+  check("--drop-velocity", spec.dropVelocity);
+  if (spec.reference.mode == vpPrintReferenceMode::CellVelocity) {
+    check("--mean-velocity", spec.reference.meanVelocity);
+  }
+  if (spec.reference.mode == vpPrintReferenceMode::LimitedVelocity) {
+    check("--max-velocity", spec.reference.maxVelocity);
+  }
 }
 
 void complete(vpPrintExperimentSpec &spec, const Choices &choices, const std::string &sensor)
@@ -186,6 +209,7 @@ bool readOptions(int argc, const char *const *argv, Options &options)
   catch (const vpException &error) {
     throw vpApp::UsageError(vpApp::sentenceOf(error));
   }
+  checkVelocity(options.spec);
   return true;
 }
 } // namespace printPattern

@@ -4,8 +4,11 @@
  */
 #include "tables.h"
 
+#include "numberText.h"
+
 #include <visp3/pattern/vpMicroscopeCalibration.h>
 
+#include <cmath>
 #include <locale>
 #include <sstream>
 
@@ -22,6 +25,16 @@ std::ostringstream table(const char *heading)
   text.precision(10);
   text << heading << "\n";
   return text;
+}
+
+//! Cells that never came to the nozzle.
+int leftOf(const std::vector<vpPrintRun> &runs)
+{
+  int left = 0;
+  for (const vpPrintRun &run : runs) {
+    left += run.spec.rows * run.spec.cellsPerRow - run.metrics.printed - run.metrics.missed;
+  }
+  return left;
 }
 
 Json jsonOf(const Replica &replica, std::size_t number)
@@ -151,14 +164,39 @@ std::string fileOf(const Replica &replica, std::size_t number)
          ".csv";
 }
 
+std::vector<std::string> findings(const Results &results)
+{
+  const std::vector<vpPrintRun> &runs = results.runs;
+  const Landing &landing = results.landing;
+  const int printed = sumOf(runs, &vpPrintMetrics::printed), left = leftOf(runs);
+  std::vector<std::string> lines = {std::to_string(printed) + (printed == 1 ? " cell" : " cells") + " printed, " +
+                                    std::to_string(sumOf(runs, &vpPrintMetrics::missed)) + " missed, " +
+                                    std::to_string(sumOf(runs, &vpPrintMetrics::doubled)) + " printed twice."};
+  if (!landing.errors.empty()) {
+    const std::size_t drops = landing.errors.size();
+    lines.push_back("Drops land " + vpApp::number(landing.p50, 3) + " um from the centre (median), 99 % within " +
+                    vpApp::number(landing.p99, 3) + " um, the worst " + vpApp::number(landing.max, 3) + " um off; " +
+                    std::to_string(std::lround(landing.within * static_cast<double>(drops))) + " of " +
+                    std::to_string(drops) + " are within the tolerance of 10 um.");
+  }
+  if (left > 0) {
+    lines.push_back(std::to_string(left) + (left == 1 ? " cell" : " cells") +
+                    " never came to the nozzle: the run was ended by --frames, or the controller stopped short of the "
+                    "last cell.");
+  }
+  const double gain = meanOf(runs, &vpPrintMetrics::gain_over_constant);
+  lines.push_back(vpApp::number(meanOf(runs, &vpPrintMetrics::throughput_cells_per_s), 3) + " cells a second, " +
+                  vpApp::number(100. * std::fabs(gain), 3) + (gain >= 0. ? " % faster" : " % slower") +
+                  " between the cells of a row than at the constant velocity at which the drops fall.");
+  return lines;
+}
+
 Json summaryOf(const Options &options, const Results &results, const std::string &commandLine, double wallTime)
 {
   const std::vector<vpPrintRun> &runs = results.runs;
   bool complete = true;
-  int left = 0; // cells that never came to the nozzle
   for (const vpPrintRun &run : runs) {
     complete = complete && run.metrics.complete;
-    left += run.spec.rows * run.spec.cellsPerRow - run.metrics.printed - run.metrics.missed;
   }
   Json summary = {
       {"version", VISP_DIRECT_VERSION},
@@ -172,7 +210,7 @@ Json summaryOf(const Options &options, const Results &results, const std::string
       {"printed", sumOf(runs, &vpPrintMetrics::printed)},
       {"missed", sumOf(runs, &vpPrintMetrics::missed)},
       {"doubled", sumOf(runs, &vpPrintMetrics::doubled)},
-      {"left", left},
+      {"left", leftOf(runs)},
       {"throughput_cells_per_s", meanOf(runs, &vpPrintMetrics::throughput_cells_per_s)},
       {"gain_over_constant", meanOf(runs, &vpPrintMetrics::gain_over_constant)},
       {"complete", complete},
@@ -189,6 +227,7 @@ Json summaryOf(const Options &options, const Results &results, const std::string
   if (!replicas.empty()) {
     summary["thesis"] = replicas;
   }
+  summary["findings"] = findings(results);
   summary["wall_time_s"] = wallTime;
   return summary;
 }

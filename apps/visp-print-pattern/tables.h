@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 namespace printPattern
 {
@@ -28,6 +29,8 @@ namespace printPattern
 [[nodiscard]] std::string distortionCsv();
 //! Name of the file with the first run of an experiment of the thesis: "thesis/figure-7.13.csv".
 [[nodiscard]] std::string fileOf(const Replica &replica, std::size_t number);
+//! Results in a few sentences.
+[[nodiscard]] std::vector<std::string> findings(const Results &results);
 //! summary.json without the fields that OutputFolder adds.
 [[nodiscard]] nlohmann::ordered_json summaryOf(const Options &options, const Results &results,
                                                const std::string &commandLine, double wallTime);

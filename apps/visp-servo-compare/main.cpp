@@ -87,7 +87,7 @@ void compare(const Options &options, const std::string &commandLine, const vpApp
   out.write("film-strip.jpg", strip.jpeg);
   const double wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string place =
-      vpApp::finishWithReport(out, summaryOf(plan, results, {commandLine, wallTime, videos, strip}));
+      vpApp::finishWithReport(out, summaryOf(plan, results, {commandLine, wallTime, videos, strip}), false, true);
   if (!plan.target.remark.empty()) {
     std::cout << plan.target.file << ": " << plan.target.remark << "\n";
   }

@@ -111,7 +111,15 @@ TEST_CASE("The summary follows from the tables", "[visp-print-pattern]")
     CHECK(std::filesystem::exists(run.path("d/" + file.get<std::string>())));
   }
   CHECK(run.out().find("cells printed, ") != std::string::npos);
-  CHECK(run.out().find(" doubled\nReport: " + run.path("d/report.html").string() + "\n") != std::string::npos);
+  const int within = static_cast<int>(std::count_if(errors.begin(), errors.end(), [](double e) { return e <= 10.; }));
+  CHECK(run.out().find("; " + std::to_string(within) + " of " + std::to_string(errors.size()) +
+                       " are within the tolerance of 10 um.\n") != std::string::npos);
+  CHECK(run.out().find(" drops fall.\nReport: " + run.path("d/report.html").string() + "\n") != std::string::npos);
+  std::string said;
+  for (const json &sentence : summary["findings"]) {
+    said += sentence.get<std::string>() + "\n";
+  }
+  CHECK(run.out().find(said) == 0);
 }
 
 TEST_CASE("Through rendered pictures every cell gets one drop, within the tolerance", "[visp-print-pattern]")
@@ -228,6 +236,11 @@ TEST_CASE("A wrong command line ends with one sentence", "[visp-print-pattern]")
       {"--cells 0", "--cells is 0, must be a whole number from 1 to 10000"},
       {"--flex 30", "flex"},
       {"--drop-velocity -5", "--drop-velocity is -5, must be a number > 0"},
+      {"--drop-velocity 40",
+       "--drop-velocity is 40 px/frame, must be below 24.4, half the pitch of the cells: from image to image a larger "
+       "motion looks like a smaller one"},
+      {"--drop-velocity 5 --mean-velocity 30", "--mean-velocity is 30 px/frame, must be below 24.4"},
+      {"--reference limited --max-velocity 24.5", "--max-velocity is 24.5 px/frame, must be below 24.4"},
       {"--vision-delay 9", "--vision-delay is 9, must be a number >= 0 and <= 8"},
       {"--travel-time -1", "--travel-time is -1, must be a number >= 0"},
       {"--filter 0.5 4", "beta"},

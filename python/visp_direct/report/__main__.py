@@ -37,7 +37,7 @@ def main(arguments):
             raise DataError(f"{options.folders[0]}: its report has no 3D view")
         for i, view in enumerate(views, 1):
             (options.folders[0] / f"view-{i}.html").write_text(view, encoding="utf-8")
-    print(file)
+    print("Answer:", *page.answer, file, sep="\n")
 
 
 if __name__ == "__main__":
