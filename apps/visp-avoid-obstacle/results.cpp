@@ -75,7 +75,7 @@ std::string ending(const vpAvoidanceRun &run)
     return "The arm " + m.status + ". In the end the tool was " + mm(m.goal_error_m) + " from the goal.";
   }
   return "The tool did not arrive: after " + fixed(run.samples.back().time, 2) + " s it was " + mm(m.goal_error_m) +
-         " from the goal, and touched nothing. " + run.message;
+         " from the goal, and touched nothing. The run ended as " + run.ended + ". " + run.message;
 }
 
 std::string seeing(const SightingSummary &a, const vpAvoidanceRun &run)

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 
 BEGIN_VISP_NAMESPACE
@@ -145,6 +146,13 @@ constexpr double patience = 1.;      // s that a method may report Arrived away 
 constexpr double stuckTime = 3.;     // s without any motion
 constexpr double longestStep = 1e-3; // s between knots of non-ideal drives
 
+std::string seconds(double s)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%g s", s);
+  return text;
+}
+
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -241,8 +249,11 @@ private:
     m_arrivedSince = arrived ? std::min(m_arrivedSince, s.time) : HUGE_VAL;
     const bool still = vpAvoidanceEvaluation::isAtRest(s.command) && m_truth.isStill(s.time);
     m_stillSince = still ? std::min(m_stillSince, s.time) : HUGE_VAL;
-    return s.time - m_thereSince >= holdTime || s.time - m_arrivedSince >= patience ||
-           s.time - m_stillSince >= stuckTime;
+    m_run->ended = s.time - m_thereSince >= holdTime     ? "the arm rested at the goal for " + seconds(holdTime)
+                   : s.time - m_arrivedSince >= patience ? "the method reported Arrived for " + seconds(patience)
+                   : s.time - m_stillSince >= stuckTime  ? "the arm stood still for " + seconds(stuckTime)
+                                                         : "";
+    return !m_run->ended.empty();
   }
   vpAvoidanceSample observe(double t)
   {
@@ -293,8 +304,12 @@ vpAvoidanceRun runAvoidanceExperiment(const vpAvoidanceRunSpec &spec, const std:
     loop.move(t);
     if (progress && cycle % reportEvery == 0 && !progress(static_cast<double>(cycle) / static_cast<double>(cycles))) {
       ++cycle;
+      run.ended = "it was stopped";
       break;
     }
+  }
+  if (run.ended.empty()) {
+    run.ended = "its longest duration of " + seconds(spec.maxDuration) + " was over";
   }
   loop.finish(static_cast<double>(cycle) * period);
   run.metrics = vpAvoidanceEvaluation::evaluate(run, loop.knots());

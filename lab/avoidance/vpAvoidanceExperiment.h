@@ -85,6 +85,7 @@ struct vpAvoidanceRun {
   vpAvoidanceStatus start = vpAvoidanceStatus::Moving; //!< Result of vpAvoidanceMethod::start().
   double startTime = 0.;                               //!< Wall time of start(), s.
   std::string message;                                 //!< Final sentence of the method, with pair and margin.
+  std::string ended;                                   //!< Why the run ended: "the arm stood still for 3 s".
   vpAvoidanceMetrics metrics;                          //!< Metrics.
 };
 

@@ -198,6 +198,7 @@ TEST_CASE("An arm that waits has done its work, too", "[visp-avoid-obstacle]")
   CHECK_FALSE(summary.at("metrics").at("success").get<bool>());
   CHECK(summary.at("metrics").at("collisions_moving").get<int>() == 0);
   CHECK(run.out().find("The tool did not arrive") == 0);
+  CHECK_THAT(run.out(), Catch::Contains("touched nothing. The run ended as its longest duration of 3 s was over. "));
 }
 
 TEST_CASE("Depth images and poses lead round the box, too", "[visp-avoid-obstacle]")

@@ -28,6 +28,7 @@ constexpr double smallestContrast = 4.;                      // standard deviati
 constexpr int keypointReferenceSize =
     400; // px; a larger reference is reduced so that its keypoints have a frame's scale
 constexpr std::size_t tellingCount = 128;   // keypoints that show whether a target may be visible
+constexpr int mostRefinements = 3;          // of a start of an acquisition, if it converges slowly
 constexpr double keypointReach = 2.;        // px; error of a pose from keypoints
 constexpr double motionReach = 14.;         // px; error of a pose from the previous frame
 constexpr double rivalReach = 6.;           // px; error of the mirrored pose
@@ -107,9 +108,8 @@ vpPlanarTarget::Impl::Impl(const vpImage<unsigned char> &reference, double width
                       "least %.0f",
                       m_model->contrast(), smallestContrast);
   }
-  const bool exact = spec.exact && spec.refine;
-  m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera, !exact);
-  if (exact) {
+  m_refiner = std::make_unique<vpPhotometricRefiner>(*m_model, m_plane, m_camera, !spec.exact);
+  if (spec.refine) {
     m_texture = std::make_unique<vpTargetTexture>(image, m_plane);
     m_choice = std::make_unique<vpPoseChoice>(*m_texture, m_plane, m_camera);
   }
@@ -162,7 +162,7 @@ void vpPlanarTarget::Impl::fail(vpPlanarTargetStatus status, const std::string &
 
 void vpPlanarTarget::Impl::reset()
 {
-  m_known = false;
+  m_known = m_decided = false;
   m_result = vpPlanarTargetResult();
   if (m_choice) {
     m_choice->forget();
@@ -231,31 +231,66 @@ void vpPlanarTarget::Impl::acquireWith(const Reference &reference, const vpKeypo
   if (!checkView(poses.best)) {
     return;
   }
-  vpRigidPose pose = poses.best;
-  if (m_spec.refine) {
-    double best = 0.;
-    for (const vpRigidPose &start : {poses.best, poses.rival.value_or(poses.best)}) {
-      vpRigidPose refined = start;
-      // Two independent checks: a refinement that leaves the keypoints has found something else.
-      if (m_refiner->refine(frame.pyramid(), refined, keypointReach, m_spec.maxIterations) &&
-          pixels * medianError(matches, poses.inliers, refined) < 2. * m_spec.inlierThreshold) {
-        const double correlation = m_refiner->verify(frame.pyramid(), refined).correlation;
-        if (correlation > best) {
-          best = correlation;
-          pose = refined;
-        }
-      }
-      if (!poses.rival) {
-        break;
-      }
-    }
-    if (best == 0.) {
-      fail(vpPlanarTargetStatus::LowCorrelation,
-           message("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
-      return;
+  if (!m_spec.refine) {
+    finish(frame, poses.best, {}, vpPlanarTargetStatus::Acquired);
+    return;
+  }
+  std::vector<Candidate> candidates = {refineStart(frame, poses.best, matches, poses.inliers)};
+  if (poses.rival) {
+    candidates.push_back(refineStart(frame, *poses.rival, matches, poses.inliers));
+    if (candidates[1].correlation > candidates[0].correlation) {
+      std::swap(candidates[0], candidates[1]);
     }
   }
-  conclude(frame, pose, vpPlanarTargetStatus::Acquired);
+  acquireFrom(frame, candidates);
+}
+
+// One whose refinement has not converged is tried, too: it may be the right one, and the other converged elsewhere.
+void vpPlanarTarget::Impl::acquireFrom(const vpTargetFrame &frame, const std::vector<Candidate> &candidates)
+{
+  if (!candidates[0].agrees) {
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         message("%u keypoints agree on a pose that the grey values do not confirm.", m_result.inliers));
+    return;
+  }
+  for (const Candidate &candidate : candidates) {
+    if (candidate.agrees) {
+      m_refiner->verify(frame.pyramid(), candidate.pose); // gain and bias
+      const vpPoseDecision decision = decide(frame, candidate.pose);
+      if (decision.best.converged) {
+        finish(frame, candidate.pose, decision, vpPlanarTargetStatus::Acquired);
+        return;
+      }
+    }
+  }
+  if (m_spec.exact && candidates[0].converged) {
+    finish(frame, candidates[0].pose, {}, vpPlanarTargetStatus::Acquired); // of unknown error
+    return;
+  }
+  fail(vpPlanarTargetStatus::LowCorrelation,
+       message("The refinement of a pose on which %u keypoints agree did not converge.", m_result.inliers));
+}
+
+// Two independent checks: a refinement that leaves the keypoints has found something else.
+vpPlanarTarget::Impl::Candidate vpPlanarTarget::Impl::refineStart(const vpTargetFrame &frame, const vpRigidPose &start,
+                                                                  const vpPlaneMatches &matches,
+                                                                  const std::vector<std::size_t> &inliers)
+{
+  const double pixels = std::sqrt(m_camera.px * m_camera.py);
+  Candidate c;
+  c.pose = start;
+  const auto agrees = [&] {
+    return c.pose.isFinite() && nearestCornerDepth(m_plane, c.pose) > 0. &&
+           pixels * medianError(matches, inliers, c.pose) < 2. * m_spec.inlierThreshold;
+  };
+  // Of a target partly in view the tilt converges slowly; the steps continue at the finest level.
+  double reach = keypointReach;
+  for (int k = 0; k < mostRefinements && !c.converged && agrees(); ++k, reach = 0.) {
+    c.converged = m_refiner->refine(frame.pyramid(), c.pose, reach, m_spec.maxIterations);
+  }
+  c.agrees = agrees();
+  c.correlation = c.agrees ? m_refiner->verify(frame.pyramid(), c.pose).correlation : 0.;
+  return c;
 }
 
 void vpPlanarTarget::Impl::trackLast(vpTargetFrame &frame)
@@ -305,7 +340,7 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
                  turn * 180. / M_PI, largestTurn * 180. / M_PI));
     return false;
   }
-  if (m_choice && !m_choice->follows(pose)) {
+  if (usesLastStage() && !m_choice->follows(pose)) {
     preferRival(frame, pose, reach);
   }
   return conclude(frame, pose, vpPlanarTargetStatus::Tracked);
@@ -315,7 +350,7 @@ bool vpPlanarTarget::Impl::trackFrom(const vpTargetFrame &frame, const vpRigidPo
 // whose reach is one pixel, does not find the other one.
 void vpPlanarTarget::Impl::preferRival(const vpTargetFrame &frame, vpRigidPose &pose, double reach)
 {
-  vpRigidPose rival = rivalPose(pose);
+  vpRigidPose rival = rivalPose(pose, seenCentre(m_plane, pose, m_camera, frame.image().cols, frame.image().rows));
   const double correlation = m_refiner->verify(frame.pyramid(), pose).correlation;
   if (nearestCornerDepth(m_plane, rival) > 0. &&
       m_refiner->refine(frame.pyramid(), rival, std::max(reach, rivalReach), m_spec.maxIterations) &&
@@ -342,21 +377,39 @@ bool vpPlanarTarget::Impl::checkView(const vpRigidPose &pose)
   return true;
 }
 
-// Only a pose confirmed by the grey values becomes a result.
+vpPoseDecision vpPlanarTarget::Impl::decide(const vpTargetFrame &frame, const vpRigidPose &coarse)
+{
+  return m_choice->decide(frame.image(), coarse, {m_refiner->gain(), m_refiner->bias(), m_blur});
+}
+
 bool vpPlanarTarget::Impl::conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success)
 {
   if (!coarse.isFinite() || !checkView(coarse)) {
     return false;
   }
-  vpPoseDecision decision;
-  if (m_choice) {
-    decision = m_choice->decide(frame.image(), coarse, {m_refiner->gain(), m_refiner->bias(), m_blur});
+  return finish(frame, coarse, usesLastStage() ? decide(frame, coarse) : vpPoseDecision(), success);
+}
+
+// Only a pose confirmed by the grey values becomes a result.
+bool vpPlanarTarget::Impl::finish(const vpTargetFrame &frame, const vpRigidPose &coarse, const vpPoseDecision &decision,
+                                  vpPlanarTargetStatus success)
+{
+  if (decision.doubtful) {
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         "The pose fits badly, and the grey values do not decide between it and the mirrored one.");
+    return false;
+  }
+  if (m_choice && !m_spec.exact && !m_decided && !decision.best.converged) {
+    fail(vpPlanarTargetStatus::LowCorrelation,
+         "The last stage, which decides between the two poses of the plane, did not converge.");
+    return false;
   }
   // Without convergence, for example with few pixels, there is a pose, but its error is unknown.
   const vpRigidPose pose = decision.best.converged ? decision.best.pose : coarse;
   if (!checkView(pose) || !confirm(frame, pose)) {
     return false;
   }
+  m_decided = decision.certain;
   report(pose, decision, decision.certain ? success : vpPlanarTargetStatus::Ambiguous);
   return true;
 }

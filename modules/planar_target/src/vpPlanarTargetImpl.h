@@ -49,17 +49,32 @@ public:
   vpTargetPlane m_plane;
   vpTargetFrame m_ownFrame;
   vpPlanarTargetResult m_result;
-  bool m_fresh = true;  //!< no search since the last reset
-  bool m_known = false; //!< m_result holds the pose of the previous frame
+  bool m_fresh = true;    //!< no search since the last reset
+  bool m_known = false;   //!< m_result holds the pose of the previous frame
+  bool m_decided = false; //!< between the two poses of the plane, since the target was acquired
 
   std::vector<Reference> m_references; //!< The detector of the settings, and the fallback if wanted.
   void fail(vpPlanarTargetStatus status, const std::string &message);
 
 private:
   bool trackFrom(const vpTargetFrame &frame, const vpRigidPose &guess, double reach);
+  //! A start of an acquisition after the refinement; agrees: with the keypoints.
+  struct Candidate {
+    vpRigidPose pose;
+    double correlation = 0.;
+    bool converged = false, agrees = false;
+  };
+  Candidate refineStart(const vpTargetFrame &frame, const vpRigidPose &start, const vpPlaneMatches &matches,
+                        const std::vector<std::size_t> &inliers);
   void preferRival(const vpTargetFrame &frame, vpRigidPose &pose, double reach);
   bool checkView(const vpRigidPose &pose);
+  //! In every frame, or only until it is decided which of the plane's two poses is the right one.
+  [[nodiscard]] bool usesLastStage() const { return m_choice && (m_spec.exact || !m_decided); }
+  void acquireFrom(const vpTargetFrame &frame, const std::vector<Candidate> &candidates);
+  vpPoseDecision decide(const vpTargetFrame &frame, const vpRigidPose &coarse);
   bool conclude(const vpTargetFrame &frame, const vpRigidPose &coarse, vpPlanarTargetStatus success);
+  bool finish(const vpTargetFrame &frame, const vpRigidPose &coarse, const vpPoseDecision &decision,
+              vpPlanarTargetStatus success);
   bool confirm(const vpTargetFrame &frame, const vpRigidPose &pose);
   void report(const vpRigidPose &pose, const vpPoseDecision &decision, vpPlanarTargetStatus success);
 
@@ -67,7 +82,7 @@ private:
   std::unique_ptr<vpPhotometricModel> m_model;
   std::unique_ptr<vpPhotometricRefiner> m_refiner;
   std::unique_ptr<vpTargetTexture> m_texture;
-  std::unique_ptr<vpPoseChoice> m_choice; //!< none when the last stage is switched off
+  std::unique_ptr<vpPoseChoice> m_choice; //!< none without refinement
   double m_blur = 0.7;                    //!< of the previous frame, px
 };
 

@@ -121,6 +121,25 @@ double imageScale(const vpRigidPose &pose, const vpPinhole &camera)
   return camera.px * camera.py * std::abs(pose.R.col(2).dot(pose.t)) / std::abs(Z * Z * Z);
 }
 
+Eigen::Vector2d seenCentre(const vpTargetPlane &plane, const vpRigidPose &pose, const vpPinhole &camera, int cols,
+                           int rows)
+{
+  constexpr int steps = 12; // each way
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int inside = 0;
+  for (int i = 0; i < steps * steps; ++i) {
+    const Eigen::Vector2d X(((i % steps + 0.5) / steps - 0.5) * plane.width,
+                            ((i / steps + 0.5) / steps - 0.5) * plane.height);
+    const Eigen::Vector3d P = pose.R.leftCols<2>() * X + pose.t;
+    const Eigen::Vector2d p = camera.project(P.head<2>() / P.z());
+    if (P.z() > 0. && p.x() >= 0. && p.x() <= cols - 1 && p.y() >= 0. && p.y() <= rows - 1) {
+      sum += X;
+      ++inside;
+    }
+  }
+  return inside == 0 || inside == steps * steps ? Eigen::Vector2d::Zero() : Eigen::Vector2d(sum / inside);
+}
+
 vpPlanePoses planePoses(const vpPlaneMatches &matches, double planePixels, double imagePixels, double threshold,
                         unsigned int minInliers)
 {

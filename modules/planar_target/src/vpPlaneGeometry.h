@@ -68,6 +68,10 @@ struct vpTargetPlane {
 //! Area of the target in the image over its area in the plane, at the target's centre, px^2 / m^2.
 [[nodiscard]] double imageScale(const vpRigidPose &pose, const vpPinhole &camera);
 
+//! Centre of the part of the target that is in an image of cols x rows pixels, m in the plane; 0 if that is all or none.
+[[nodiscard]] Eigen::Vector2d seenCentre(const vpTargetPlane &plane, const vpRigidPose &pose, const vpPinhole &camera,
+                                         int cols, int rows);
+
 //! Points of the plane (m) and their image positions (normalised coordinates).
 struct vpPlaneMatches {
   std::vector<Eigen::Vector2d> plane;

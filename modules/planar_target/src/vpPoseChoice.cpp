@@ -29,7 +29,8 @@ constexpr float cut = 22.f;                    // squared deviations; beyond it 
 constexpr int block = 12;                      // px, see Evidence
 constexpr double smallestFrontality = 0.05;    // rivals viewed more obliquely are excluded
 
-double turnBetween(const vpRigidPose &a, const vpRigidPose &b) { return vpSO3::log(a.R * b.R.transpose()).norm(); }
+double turnBetween(const Eigen::Matrix3d &a, const Eigen::Matrix3d &b) { return vpSO3::log(a * b.transpose()).norm(); }
+double turnBetween(const vpRigidPose &a, const vpRigidPose &b) { return turnBetween(a.R, b.R); }
 
 // Squared deviations between the orientations of a fit and another pose.
 double turn2(const vpPixelFit &fit, const vpRigidPose &other)
@@ -40,9 +41,10 @@ double turn2(const vpPixelFit &fit, const vpRigidPose &other)
 }
 } // namespace
 
-vpRigidPose rivalPose(const vpRigidPose &pose)
+vpRigidPose rivalPose(const vpRigidPose &pose, const Eigen::Vector2d &pivot)
 {
-  const Eigen::Vector3d sight = pose.t.normalized(), normal = pose.R.col(2);
+  const Eigen::Vector3d place = pose.R.leftCols<2>() * pivot + pose.t;
+  const Eigen::Vector3d sight = place.normalized(), normal = pose.R.col(2);
   const Eigen::Vector3d turned = 2. * sight * sight.dot(normal) - normal;
   vpRigidPose rival = pose;
   for (int i = 0; i < 2; ++i) {
@@ -54,7 +56,13 @@ vpRigidPose rivalPose(const vpRigidPose &pose)
   rival.R.col(1) -= rival.R.col(0) * rival.R.col(0).dot(rival.R.col(1));
   rival.R.col(1).normalize();
   rival.R.col(2) = rival.R.col(0).cross(rival.R.col(1));
+  rival.t = place - rival.R.leftCols<2>() * pivot;
   return rival;
+}
+
+vpRigidPose vpPoseChoice::mirrored(const cv::Mat &image, const vpRigidPose &pose) const
+{
+  return rivalPose(pose, seenCentre(m_plane, pose, m_camera, image.cols, image.rows));
 }
 
 // True if the first refiner's pose fits, and the rival is so different that its exact pose does not matter.
@@ -68,6 +76,16 @@ bool vpPoseChoice::isPlain(const cv::Mat &image, const vpRigidPose &rival)
   return evidence.L > plainEvidence && evidence.L > sureSpreads * std::sqrt(evidence.variance);
 }
 
+// True if the mirrored pose, which has no fit, is as good as the first refiner's.
+bool vpPoseChoice::isDoubtful(const cv::Mat &image, const vpRigidPose &rival)
+{
+  if (!m_refiners[1].glance(image, rival, m_refiners[0].fit().camera)) {
+    return false;
+  }
+  const Evidence evidence = compare();
+  return !(evidence.L > sure && evidence.L > sureSpreads * std::sqrt(evidence.variance));
+}
+
 // True if there is a rival, refined.
 bool vpPoseChoice::refineRival(const cv::Mat &image)
 {
@@ -75,7 +93,7 @@ bool vpPoseChoice::refineRival(const cv::Mat &image)
   if (frontality(fit.pose) < smallestFrontality) {
     return false;
   }
-  const vpRigidPose start = rivalPose(fit.pose);
+  const vpRigidPose start = mirrored(image, fit.pose);
   // Where the perspective is strong, the pose is decided immediately when tracked, or after a first comparison.
   if (turn2(fit, start) < sameTurn2 ||
       (m_refiners[0].distance(start) > farDistance && (m_memory || isPlain(image, start)))) {
@@ -83,6 +101,7 @@ bool vpPoseChoice::refineRival(const cv::Mat &image)
   }
   const double whole = turnBetween(start, fit.pose);
   if (!m_refiners[1].refine(image, start, fit.camera).converged) {
+    m_decision.doubtful = !m_memory && fit.kappa > plainKappa && isDoubtful(image, start);
     return false;
   }
   // Both restart from their results: a prediction that is linear over a longer way fits differently, by a relevant
@@ -153,12 +172,12 @@ void vpPoseChoice::conclude(Evidence now)
   // Limited together, so that their ratio stays.
   const double hold = std::min(1., mostEvidence / std::max(m_decision.evidence, 1e-12));
   m_memory =
-      Memory{m_decision.best.pose, m_decision.rival->pose, {hold * m_decision.evidence, hold * hold * now.variance}};
+      Memory{m_decision.best.pose, m_decision.rival->pose.R, {hold * m_decision.evidence, hold * hold * now.variance}};
 }
 
 bool vpPoseChoice::follows(const vpRigidPose &pose) const
 {
-  return m_memory && turnBetween(pose, m_memory->best) <= turnBetween(pose, rivalPose(m_memory->best));
+  return m_memory && turnBetween(pose.R, m_memory->best.R) <= turnBetween(pose.R, m_memory->mirrored);
 }
 
 const vpPoseDecision &vpPoseChoice::decide(const cv::Mat &image, const vpRigidPose &pose, const vpCameraState &camera)
@@ -175,7 +194,8 @@ const vpPoseDecision &vpPoseChoice::decide(const cv::Mat &image, const vpRigidPo
     conclude(compare());
   }
   else {
-    m_memory = Memory{m_decision.best.pose, std::nullopt, Evidence()};
+    m_decision.certain = !m_decision.doubtful;
+    m_memory = Memory{m_decision.best.pose, mirrored(image, m_decision.best.pose).R, Evidence()};
   }
   return m_decision;
 }
