@@ -165,7 +165,9 @@ TEST_CASE("while it learns under uneven light, centres are as good as they say",
   CAPTURE(vpTestSupport::seed());
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
   vpImage<unsigned char> image;
-  for (int problem = 0; problem < vpTestSupport::longer(8); ++problem) {
+  const int problems = vpTestSupport::longer(8);
+  double allX = 0., allY = 0.;
+  for (int problem = 0; problem < problems; ++problem) {
     Pattern pattern;
     pattern.width = 320;
     pattern.height = 240;
@@ -210,9 +212,14 @@ TEST_CASE("while it learns under uneven light, centres are as good as they say",
     CAPTURE(problem, pattern.pitchX, pattern.pitchY, pattern.cellX, pattern.cellY, pattern.slope, pattern.slopeY,
             pattern.rotation, images, sx / count, sy / count);
     REQUIRE(count > 300);
-    CHECK(std::sqrt(xx / count) == Approx(1.1).margin(0.4));
-    CHECK(std::sqrt(yy / count) == Approx(1.1).margin(0.4));
+    // Beyond 1.5 in one of fifty: errors that do not change while the product moves along the pixels are not in the sigma.
+    CHECK(std::sqrt(xx / count) == Approx(1.2).margin(0.6));
+    CHECK(std::sqrt(yy / count) == Approx(1.2).margin(0.6));
+    allX += xx / count;
+    allY += yy / count;
   }
+  CHECK(std::sqrt(allX / problems) == Approx(1.05).margin(0.25));
+  CHECK(std::sqrt(allY / problems) == Approx(1.05).margin(0.25));
 }
 
 TEST_CASE("cells keep their row and column over a long way, forth and back", "[pattern]")
