@@ -48,8 +48,9 @@ struct VISP_EXPORT vpPlanarTargetSpec {
   unsigned int refinementSize = 200; //!< Longer side of the reference at the finest level, px; cost: its square.
   unsigned int maxIterations = 30;   //!< Maximum number of refinement iterations, over all levels.
   bool refine = true;                //!< False: keypoints only, for comparison with tables 4.2 and 4.3 of the thesis.
-  //! Last stage on the frame's own pixels: gives the covariance, the choice between two poses, and errors near the
-  //! lower bound. False: none of these, in about half the time. Needs refine.
+  //! Last stage on the frame's own pixels in every frame: gives the covariance, the choice between two poses, and errors
+  //! near the lower bound. False: only until the poses of a target just found are decided; tracking takes about half the
+  //! time. Needs refine.
   bool exact = true;
   double surfThreshold = 10.;   //!< SURF: least strength of a keypoint (determinant of dlib's box filters), >= 0.
   unsigned int surfOctaves = 4; //!< SURF: octaves, 1 to 8.
