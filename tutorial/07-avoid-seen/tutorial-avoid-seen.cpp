@@ -37,8 +37,8 @@ double drive(bool isCovered, vpImage<vpRGBa> &picture)
   vpPlanarTargetDatabase targets(view.camera, vpObstacleDetector::fastTargets());
   targets.add("box", view.photos[0].image, 0.16, 0.11012, 0.06); // width, height and depth, m
   vpObstacleDetector detector(std::move(targets), view.camera);
-  vpObjectTracks tracks;
-  file.spec.objects.clear(); // the arm does not know where the box is
+  vpObjectTracks tracks(vpObjectTrackSpec{0.1, 0.2}); // slow objects: m/s^2, rad/s^2
+  file.spec.objects.clear();                          // the arm does not know where the box is
   vpCollisionScene known(arm, file.spec);
   vpDirectTrajectoryAvoidanceSpec spec; // via positions beside the obstacle; 0.5 m/s, 1 m/s^2, 10 mm of margin
   spec.keepOrientation = true;          // the camera keeps its viewing direction
