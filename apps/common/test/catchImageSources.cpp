@@ -295,7 +295,7 @@ TEST_CASE("a camera's times lose the jitter of the transport, and follow a drift
   }
 }
 
-TEST_CASE("lost images are counted by their numbers, also where these begin anew", "[sources][clock]")
+TEST_CASE("lost images are counted by their numbers, also when the numbers start again", "[sources][clock]")
 {
   std::mt19937_64 generator = vpTestSupport::generator();
   for (const std::uint64_t largest : {std::uint64_t(65535), std::uint64_t(1) << 40U}) {

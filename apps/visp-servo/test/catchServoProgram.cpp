@@ -378,7 +378,7 @@ TEST_CASE("the goal that is not reached in time is status 1, with the report", "
   CHECK(std::filesystem::exists(run.path("a/report.html")));
 }
 
-TEST_CASE("a goal out of reach is told before the arm moves, and at the end", "[visp-servo]")
+TEST_CASE("a goal out of reach is reported before the arm moves, and at the end", "[visp-servo]")
 {
   const std::string word = "no joint positions were found that reach the goal";
   ProgramRun run(SERVO);

@@ -327,7 +327,7 @@ TEST_CASE("Goals out of reach, an arm that touches, nonsense: a status, and the 
   }
 }
 
-TEST_CASE("An arm within the margin is told the pair, the clearance and the margin", "[methods]")
+TEST_CASE("An arm within the margin: the message names the pair, the clearance and the margin", "[methods]")
 {
   vpAvoidanceOutput output;
   // 9.85 mm from a ball with a margin of 10 mm: no contact, and the message says so.
